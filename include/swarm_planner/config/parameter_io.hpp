@@ -1,0 +1,50 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "swarm_planner/config/faults.hpp"
+#include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/config/scenario.hpp"
+
+namespace swarm_planner {
+
+/// What a parameter may be given as. The string "auto" asks for the documented rule where one exists.
+using ParameterValue = std::variant<bool, int, double, std::string>;
+
+/// Flat name -> value, as read from YAML or from the ROS parameter server.
+using ParameterMap = std::map<std::string, ParameterValue>;
+
+/// One line of the parameter table.
+struct ParameterInfo {
+  std::string name;           ///< flat name, e.g. "max_speed"
+  std::string unit;           ///< e.g. "m/s", "" if none
+  std::string description;
+  ParameterValue default_value;
+  bool has_rule = false;      ///< may be "auto"
+  bool overridable = false;   ///< scenarios may set it: planner and vehicle parameters, not simulation or input
+};
+
+/// Every parameter, in the order of the shipped YAML.
+const std::vector<ParameterInfo>& parameterTable();
+
+/// Reads config/planner.yaml (a flat map). Faults as for scenarios; keys missing from a file are faults
+/// only if `require_all`.
+ParameterMap parseParameterFile(const std::string& path, bool require_all, Faults& faults);
+
+/// Values by precedence: scenario overrides, then `given`, then defaults; then the rules for whatever is
+/// still "auto" or unset; then every range check. Faults name the key and the allowed range.
+/// The rules (documented in doc/parameters.md):
+///   sampling_time = pair_distance / max_speed rounded down to 0.05 s, within [0.15, 0.3]
+///   cycle_period = sampling_time
+///   zeta = 0.2 (sampling_time / 0.3 s)^6, so that the loop keeps its shape per sample
+///   velocity_time = sampling_time / 0.3 s * 1 s
+///   pair_distance_vertical = pair_distance
+///   tracking_margin = a tenth of the smaller of uav_radius*2 and pair_distance, within [0.02, 0.2]
+Parameters resolveParameters(const ParameterMap& given, const std::map<std::string, double>& overrides,
+                             const std::string& overrides_source, Faults& faults);
+
+}  // namespace swarm_planner

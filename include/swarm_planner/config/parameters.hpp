@@ -1,0 +1,104 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <limits>
+
+#include "swarm_planner/config/types.hpp"
+
+namespace swarm_planner {
+
+/// The quadrotor, Table 1 of the paper (its labels of k and b are swapped there: hover takes about
+/// 620 rad/s with the values below).
+struct VehicleParameters {
+  double mass = 0.468;                  ///< M [kg]
+  double gravity = 9.81;                ///< g [m/s^2]
+  double arm_length = 0.255;            ///< L, half the distance of two opposite rotors [m]
+  double drag_x = 0.25;                 ///< k_dx [N s/m]
+  double drag_y = 0.25;                 ///< k_dy [N s/m]
+  double drag_z = 0.25;                 ///< k_dz [N s/m]
+  double force_constant = 2.98e-6;      ///< k [N s^2/rad^2]
+  double rotor_drag_constant = 1.14e-7; ///< b [N m s^2/rad^2]
+  double inertia_x = 4.856e-3;          ///< I_x [kg m^2]
+  double inertia_y = 4.856e-3;          ///< I_y [kg m^2]
+  double inertia_z = 8.801e-3;          ///< I_z [kg m^2]
+  double max_rotor_speed = 1000.0;      ///< saturation of each rotor [rad/s]
+
+  /// Drag over mass per axis [1/s]: k_d / M of (3).
+  Vector3 dragOverMass() const { return Vector3(drag_x, drag_y, drag_z) / mass; }
+};
+
+/// Hard limits of flight and the distances to keep.
+struct LimitParameters {
+  double max_speed = 5.0;                                         ///< Euclidean norm [m/s]
+  double max_acceleration = std::numeric_limits<double>::infinity();  ///< Euclidean norm [m/s^2]
+  double max_thrust_ratio = 2.0;       ///< T_max / (M g) of (6)
+  double min_thrust_ratio = 0.2;       ///< least (A_z + g) / g, keeps the vehicle upright
+  double uav_radius = 0.3;             ///< least distance of a UAV's centre to an obstacle's surface [m]
+  double pair_distance = 2.0;          ///< R_CA of (14), horizontal [m]
+  double pair_distance_vertical = 2.0; ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
+  double tracking_margin = 0.2;        ///< kept on top of both distances by the planner [m]; unset: by rule
+  bool avoidance = true;               ///< false only for negative controls: no obstacle or pair constraint
+};
+
+/// Sampling of the horizon and the cycle.
+struct TimeParameters {
+  double sampling_time = 0.3;  ///< dt of the horizon [s]; unset: by rule
+  double cycle_period = 0.3;   ///< a new plan every so often [s]; unset: sampling_time
+};
+
+/// Weights of cost (16) and of the robustness function (8)-(13).
+struct CostParameters {
+  double alpha = 0.5;             ///< horizontal deviation from the reference path
+  double beta = 0.5;              ///< vertical deviation from the reference path
+  double eta = 0.1;               ///< distance of the state from the moving target's state
+  double zeta = 0.2;              ///< rate of change of the control (jerk); unset: by rule
+  double velocity_time = 1.0;     ///< makes velocity comparable to position in eta's term [s]; unset: by rule
+  double robustness_gain = 1.0;   ///< q of (9); 0 switches the robustness function off
+  double robustness_inner = 1.2;  ///< r_a of (11), 1 < r_a < r_b
+  double robustness_outer = 2.5;  ///< r_b of (11)
+  double epsilon_s = 0.01;        ///< eps_s of (7) and (8)
+};
+
+/// Sequential quadratic programming and penalties of violated constraints.
+struct SqpParameters {
+  int max_iterations = 5;        ///< most QPs per UAV and cycle
+  double step_tolerance = 0.01;  ///< converged when no knot moves by more [m]
+  double slack_linear = 200.0;   ///< L1 penalty per metre of violation
+  double slack_quadratic = 200.0;  ///< quadratic penalty per square metre of violation
+};
+
+/// Inputs of the planner and how long they are believed.
+struct InputParameters {
+  double odometry_timeout = 0.5;  ///< older odometry is not used [s]
+  double track_timeout = 1.0;     ///< an obstacle track is predicted for at most so long [s]
+  double tracking_time = 0.5;     ///< time constant with which a vehicle's tracking deviation decays [s]
+  bool autostart = true;          ///< start as soon as every UAV's odometry has arrived
+};
+
+/// The simulated quadrotor's controller, sensors and rates.
+struct SimulationParameters {
+  double step = 0.005;               ///< integration step of the dynamics [s]
+  double odometry_rate = 50.0;       ///< [Hz]
+  double track_rate = 10.0;          ///< of obstacle tracks [Hz]
+  double position_gain = 4.0;        ///< acceleration per position error [1/s^2]
+  double velocity_gain = 3.0;        ///< acceleration per velocity error [1/s]
+  double attitude_gain = 200.0;      ///< angular acceleration per angle error [1/s^2]
+  double attitude_rate_gain = 25.0;  ///< angular acceleration per rate error [1/s]
+  double max_tilt = 1.2;             ///< commanded roll and pitch saturate here [rad]
+  double position_noise = 0.0;       ///< standard deviation of measured position [m]
+  double velocity_noise = 0.0;       ///< standard deviation of measured velocity [m/s]
+  int seed = 0;                      ///< of the sensor noise
+};
+
+/// Every parameter of planner, vehicle and simulation. Loaded and validated by config/parameter_io.hpp.
+struct Parameters {
+  VehicleParameters vehicle;
+  LimitParameters limits;
+  TimeParameters time;
+  CostParameters cost;
+  SqpParameters sqp;
+  InputParameters input;
+  SimulationParameters simulation;
+};
+
+}  // namespace swarm_planner

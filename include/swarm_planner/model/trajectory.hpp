@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+
+#include "swarm_planner/model/kinematics.hpp"
+
+namespace swarm_planner {
+
+/// Number of stages of the horizon, N of Table 3. Fixed when the solver is generated.
+constexpr int kHorizon = 20;
+
+/// A plan: cubic position polynomials between kHorizon + 1 equidistant knots.
+struct Trajectory {
+  double epoch = 0.0;  ///< time of the first knot [s]
+  double dt = 0.0;     ///< between knots [s]
+  std::array<KinematicState, kHorizon + 1> knots;
+  std::array<Vector3, kHorizon> jerks;
+
+  double duration() const { return kHorizon * dt; }
+  /// The state at absolute time `t` [s]. Before the epoch: the first knot's position, velocity and
+  /// acceleration moved back along the first segment; after the end: constant velocity of the last knot.
+  KinematicState at(double t) const;
+};
+
+/// Fills the knots by rolling `jerks` out from `start`.
+void rollOut(const KinematicState& start, Trajectory& trajectory);
+
+}  // namespace swarm_planner

@@ -1,0 +1,53 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "swarm_planner/config/types.hpp"
+
+namespace swarm_planner {
+
+/// A point of a path with its unit tangent.
+struct PathPoint {
+  Vector3 position = Vector3::Zero();
+  Vector3 tangent = Vector3::UnitX();
+  double arc_length = 0.0;  ///< [m]
+};
+
+/// The reference of one UAV: a polyline by arc length. Repeated points are dropped; a path of length
+/// zero is a single point with tangent e1.
+class ReferencePath {
+ public:
+  ReferencePath() = default;
+  explicit ReferencePath(const std::vector<Vector3>& points);
+
+  double length() const { return arc_lengths_.empty() ? 0.0 : arc_lengths_.back(); }
+  /// The point at `arc_length`, clamped to the path.
+  PathPoint at(double arc_length) const;
+  /// The point nearest to `position` among those within `window` [m] of arc length of `near`.
+  PathPoint nearest(const Vector3& position, double near, double window = 5.0) const;
+  const std::vector<Vector3>& points() const { return points_; }
+
+ private:
+  std::vector<Vector3> points_;
+  std::vector<double> arc_lengths_;
+};
+
+/// State of a moving target.
+struct TargetState {
+  Vector3 p = Vector3::Zero();  ///< [m]
+  Vector3 v = Vector3::Zero();  ///< [m/s], zero once it has stopped at the path's end
+  double arc_length = 0.0;      ///< [m]
+};
+
+/// A reference with the target that moves along it from time zero and stops at its end, eq. (16).
+struct MovingTarget {
+  ReferencePath path;
+  double start = 0.0;      ///< arc length at time_zero [m]
+  double speed = 0.0;      ///< [m/s]
+  double time_zero = 0.0;  ///< absolute time at which it starts moving [s]
+
+  TargetState at(double t) const;
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,28 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <string>
+
+#include "swarm_planner/config/parameter_io.hpp"
+#include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/obstacles/superellipsoid.hpp"
+
+namespace swarm_planner {
+
+/// A validated scenario with the parameters that hold for it.
+struct Mission {
+  Scenario scenario;
+  Parameters parameters;
+};
+
+/// Reads a scenario file and resolves its parameters on top of `given`. Throws ConfigError that lists every
+/// fault, including UAVs that start closer to each other or to an obstacle than the limits allow.
+Mission loadMission(const std::string& scenario_path, const ParameterMap& given);
+
+/// The same for a scenario made by a program. `source` names it in faults.
+Mission makeMission(const Scenario& scenario, const ParameterMap& given, const std::string& source);
+
+/// The obstacle at its t = 0.
+Superellipsoid makeObstacle(const ScenarioObstacle& obstacle);
+
+}  // namespace swarm_planner

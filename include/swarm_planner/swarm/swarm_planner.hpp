@@ -1,0 +1,108 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "swarm_planner/model/trajectory.hpp"
+#include "swarm_planner/obstacles/obstacle_track.hpp"
+#include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/swarm/mission.hpp"
+
+namespace swarm_planner {
+
+/// Odometry of one UAV in the planning frame.
+struct UavMeasurement {
+  bool received = false;
+  double stamp = 0.0;           ///< [s]
+  Vector3 p = Vector3::Zero();  ///< [m]
+  Vector3 v = Vector3::Zero();  ///< [m/s]
+};
+
+/// All that one cycle looks at. Sized once; filled anew each cycle.
+struct Snapshot {
+  double now = 0.0;                       ///< [s]
+  std::vector<UavMeasurement> uavs;       ///< one per UAV, in the scenario's order
+  std::vector<ObstacleTrack> obstacles;
+};
+
+/// State of a UAV as PlannerStatus reports it (same numbers as the message's constants).
+enum class UavState : std::uint8_t { kTracking = 0, kHolding = 1, kFallback = 2, kLost = 3, kLanding = 4, kStopped = 5 };
+
+/// Why a UAV is in its state.
+enum class Reason : std::uint8_t {
+  kNone,
+  kWaitingForOdometry,    ///< this UAV's odometry has never arrived
+  kWaitingForOthers,      ///< another UAV's odometry has never arrived
+  kWaitingForStart,       ///< autostart is off
+  kOdometryStale,         ///< older than odometry_timeout
+  kOdometryFromFuture,
+  kOdometryNotFinite,
+  kConstraintsViolated,   ///< the newest plan needs slack
+  kSolverFailed,          ///< the QP had no answer; the committed plan goes on
+};
+/// In words, for operators. A string literal.
+const char* reasonText(Reason reason);
+const char* stateText(UavState state);
+
+/// Result of one cycle for one UAV.
+struct UavReport {
+  UavState state = UavState::kHolding;
+  Reason reason = Reason::kWaitingForOdometry;
+  bool planned = false;         ///< a plan for this epoch stands and may be published
+  double solve_time = 0.0;      ///< [s] of wall clock
+  int sqp_iterations = 0;
+  int qp_iterations = 0;
+  double max_slack = 0.0;       ///< largest violation of a constraint by the plan [m]
+  double obstacle_clearance = 0.0;  ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
+  double pair_distance = 0.0;       ///< smallest predicted centre distance to another UAV [m]; +inf without
+  double lag = 0.0;                 ///< arc length from the UAV's foot on its reference to its target [m]
+};
+
+/// Result of one cycle.
+struct CycleReport {
+  std::uint64_t cycle = 0;
+  double epoch = 0.0;        ///< [s]
+  double time_zero = 0.0;    ///< epoch of t = 0 of the run; valid if started
+  bool started = false;
+  double cycle_time = 0.0;   ///< snapshot in, plans out [s] of wall clock
+  std::vector<UavReport> uavs;
+};
+
+/// Problem 2: plans for every UAV, one after the other, with the other UAVs' plans held fixed.
+/// After the first cycle nothing in plan() allocates on the heap or throws.
+class SwarmPlanner {
+ public:
+  explicit SwarmPlanner(const Mission& mission);
+  ~SwarmPlanner();
+  SwarmPlanner(SwarmPlanner&&) noexcept;
+  SwarmPlanner& operator=(SwarmPlanner&&) noexcept;
+
+  std::size_t uavCount() const;
+  const std::string& uavName(std::size_t uav) const;
+
+  /// One cycle: new plans that start at `epoch` >= snapshot.now, given in the snapshot's time base.
+  const CycleReport& plan(const Snapshot& snapshot, double epoch);
+  const CycleReport& report() const;
+
+  /// The newest plan of a UAV; meaningful where report().uavs[uav].planned.
+  const Trajectory& committed(std::size_t uav) const;
+  /// Where the UAV's target is at time `t`; before t = 0 of the run at its start.
+  TargetState target(std::size_t uav, double t) const;
+  const MovingTarget& reference(std::size_t uav) const;
+
+  /// Replaces a UAV's reference; its time zero is the next epoch. `path` at least one finite point,
+  /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
+  void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
+
+  /// Forgets plans and time zero (a backward jump of time). References stay as given, also those set later.
+  void reset();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace swarm_planner
