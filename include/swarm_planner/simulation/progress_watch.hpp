@@ -1,0 +1,71 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/swarm/mission.hpp"
+
+namespace swarm_planner {
+
+/// Follows every UAV along its reference: lag, stuck, arrived (INTERFACES "Experiment program").
+class ProgressWatch {
+ public:
+  /// Tolerance of "arrived" in runs whose end condition has none [m].
+  static constexpr double kDefaultTolerance = 0.2;
+  /// A UAV is looked at over this time to tell whether it is stuck [s].
+  static constexpr double kStuckTime = 20.0;
+
+  explicit ProgressWatch(const Mission& mission);
+
+  /// One instant, `t` [s] since t = 0 of the run.
+  void observe(double t, const std::vector<Vector3>& positions, const std::vector<Vector3>& velocities);
+
+  /// Arc length from the UAV's nearest point on its reference to its target [m]; negative: ahead of it. Nearest means
+  /// within 5 m of arc length of the last one; the first is looked for along the whole reference.
+  double lag(std::size_t uav) const;
+
+  /// The foot: the UAV's nearest point on its reference.
+  const PathPoint& foot(std::size_t uav) const { return feet_[uav]; }
+  /// The target at the last instant.
+  const TargetState& target(std::size_t uav) const { return targets_[uav]; }
+
+  /// Lags more than 20 m (with all_at_goal: more than the tolerance), has not arrived, and in the last 20 s (or since
+  /// the start, if that is shorter) advanced less than 1 m along the reference and moved less than 5 m net.
+  bool stuck(std::size_t uav) const;
+
+  /// Within the tolerance of its reference's end, or parked: almost at rest at the allowed distance around its end,
+  /// where another UAV that has reached its own end leaves no room.
+  bool arrived(std::size_t uav) const;
+
+  /// Every UAV is within the tolerance of its reference's end.
+  bool allAtGoal() const;
+  /// Every target has crossed the plane x = `x` [m], or stands still for good.
+  bool allTargetsCrossed(double x) const;
+
+ private:
+  struct Past {
+    double time;
+    std::vector<double> arc_lengths;
+    std::vector<Vector3> positions;
+  };
+
+  void remember(double t);
+  bool atEnd(std::size_t uav) const;
+  bool parked(std::size_t uav) const;
+
+  EndCondition end_;
+  Vector3 pair_axes_;      ///< semi-axes of the pair ellipsoid [m]
+  double parking_margin_;  ///< on top of them [m]
+  std::vector<MovingTarget> references_;
+  double time_ = 0.0;
+  std::vector<PathPoint> feet_;
+  std::vector<TargetState> targets_;
+  std::vector<Vector3> positions_;
+  std::vector<Vector3> velocities_;
+  std::deque<Past> past_;  ///< of the last 20 s, sparse
+};
+
+}  // namespace swarm_planner
