@@ -20,7 +20,9 @@ struct Trajectory {
   double duration() const { return kHorizon * dt; }
   /// The state at absolute time `t` [s]. Before the epoch: the first knot's position, velocity and
   /// acceleration moved back along the first segment; after the end: constant velocity of the last knot.
-  KinematicState at(double t) const;
+  KinematicState at(double t) const { return after(t - epoch); }
+  /// The same `elapsed` seconds after the epoch: exact where an absolute time of 1e9 s rounds to 2e-7 s.
+  KinematicState after(double elapsed) const;
 };
 
 /// Fills the knots by rolling `jerks` out from `start`.
