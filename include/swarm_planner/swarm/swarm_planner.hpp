@@ -25,7 +25,7 @@ struct UavMeasurement {
 struct Snapshot {
   double now = 0.0;                       ///< [s]
   std::vector<UavMeasurement> uavs;       ///< one per UAV, in the scenario's order
-  std::vector<ObstacleTrack> obstacles;
+  std::vector<TrackedObstacle> obstacles;
 };
 
 /// State of a UAV as PlannerStatus reports it (same numbers as the message's constants).
