@@ -12,7 +12,6 @@ namespace swarm_planner {
 /// The integrand F of (16) for one UAV on a polyline: with the foot f of the UAV on its reference, the tangent t there,
 /// h = e3 x t normalised (e2 if the path is vertical) and b = t x h,
 ///   alpha (h . (p - f))^2 + beta (b . (p - f))^2 + eta (|p - p_m|^2 + velocity_time^2 |v - v_m|^2) + zeta |jerk|^2.
-/// The robustness function (8) is left to ClosedLoopCost.
 double trackingCost(const Vector3& p, const Vector3& v, const Vector3& jerk, const PathPoint& foot,
                     const TargetState& target, const CostParameters& weights);
 

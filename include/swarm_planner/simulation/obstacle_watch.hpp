@@ -14,7 +14,7 @@ namespace swarm_planner {
 ///
 /// Exact, yet cheap: an obstacle's bounding box bounds the clearance from below, and only what lies below the least
 /// clearance so far, or below zero, is evaluated. A UAV whose slack against every box is larger than what it and the
-/// obstacles have moved since is not looked at.
+/// obstacles have moved since is not looked at. Obstacles may move in any way, but do not turn or change their shape.
 class ObstacleWatch {
  public:
   using Contact = std::pair<std::size_t, std::size_t>;  ///< UAV, obstacle (indices)
@@ -31,7 +31,7 @@ class ObstacleWatch {
   std::optional<double> minClearance() const;
 
  private:
-  double farthestObstacleMove(const std::vector<Superellipsoid>& obstacles) const;
+  double farthestObstacleMove(const std::vector<Superellipsoid>& obstacles);
   void look(std::size_t uav, const Vector3& position, const std::vector<Superellipsoid>& obstacles);
 
   double uav_radius_;

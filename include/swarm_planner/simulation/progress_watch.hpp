@@ -42,7 +42,8 @@ class ProgressWatch {
 
   /// Every UAV is within the tolerance of its reference's end.
   bool allAtGoal() const;
-  /// Every target has crossed the plane x = `x` [m], or stands still for good.
+  /// Every target has crossed the plane x = `x` [m] in the direction from its start to its reference's end, or stands
+  /// still for good.
   bool allTargetsCrossed(double x) const;
 
  private:
@@ -52,13 +53,14 @@ class ProgressWatch {
     std::vector<Vector3> positions;
   };
 
-  void remember(double t);
+  void remember();
   bool atEnd(std::size_t uav) const;
   bool parked(std::size_t uav) const;
 
   EndCondition end_;
-  Vector3 pair_axes_;      ///< semi-axes of the pair ellipsoid [m]
-  double parking_margin_;  ///< on top of them [m]
+  double pair_distance_;           ///< horizontal semi-axis of the pair ellipsoid [m]
+  double pair_distance_vertical_;  ///< vertical one [m]
+  double parking_margin_ = 0.0;    ///< on top of both [m]
   std::vector<MovingTarget> references_;
   double time_ = 0.0;
   std::vector<PathPoint> feet_;

@@ -59,6 +59,7 @@ class QuadSimulator {
 
  private:
   void control();
+  double attitudeFeedback(double angle_error, double rate_error) const;  ///< angular acceleration [rad/s^2]
   Vector3 limitedThrustAcceleration(const Vector3& wanted) const;
 
   VehicleParameters vehicle_;

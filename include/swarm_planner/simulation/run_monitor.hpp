@@ -72,7 +72,8 @@ class RunMonitor {
   RunSummary summary() const;
 
  private:
-  void watchWorkspace(const std::vector<UavSample>& uavs);
+  void watchWorkspace();
+  void integrateCost(const std::vector<UavSample>& uavs);
   bool endConditionHolds();
 
   Scenario scenario_;

@@ -22,10 +22,11 @@ bool isFlyable(const SetpointTrajectory& trajectory);
 
 /// The trajectories that one vehicle has received, as one motion over time.
 ///
-/// A trajectory takes over at its epoch; until then the one before it goes on. A trajectory that arrives replaces every
-/// waiting one whose epoch is not earlier than its own. Between two points the motion is the quintic that meets
-/// position, velocity and acceleration at both (piecewise quintic Hermite): of a plan with constant jerk between
-/// samples it is the plan itself, exactly. After the last point the last position is held, at rest.
+/// A trajectory takes over at its first point (at its epoch, if that is at time 0); until then the one before it goes
+/// on. A trajectory that arrives replaces every waiting one whose beginning is not earlier than its own. Between two
+/// points the motion is the quintic that meets position, velocity and acceleration at both (piecewise quintic Hermite):
+/// of a plan with constant jerk between samples it is the plan itself, exactly. After the last point the last position
+/// is held, at rest.
 class SetpointTrack {
  public:
   /// Holds `start` [m] until a trajectory takes over.
@@ -44,7 +45,7 @@ class SetpointTrack {
   const SetpointTrajectory* activeAt(double t) const;
 
   Vector3 rest_;
-  std::vector<SetpointTrajectory> received_;  ///< by epoch, strictly increasing
+  std::vector<SetpointTrajectory> received_;  ///< by beginning, strictly increasing
 };
 
 }  // namespace swarm_planner

@@ -1,0 +1,111 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/simulation/quad_simulator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "swarm_planner/model/flat_inputs.hpp"
+
+namespace swarm_planner {
+namespace {
+
+/// Share of the rotors' full thrust that the position controller may ask for; the rest turns the vehicle.
+constexpr double kThrustShare = 0.9;
+/// Least share of the weight that is carried upwards, so that the commanded attitude stays upright.
+constexpr double kMinLift = 0.2;
+
+}  // namespace
+
+QuadSimulator::QuadSimulator(const Parameters& parameters, const Vector3& start, std::uint64_t seed)
+    : vehicle_(parameters.vehicle), simulation_(parameters.simulation), setpoints_(start), noise_(seed) {
+  state_.p = start;
+  rotor_speeds_ = swarm_planner::rotorSpeeds(vehicle_.mass * vehicle_.gravity, 0.0, 0.0, vehicle_);
+}
+
+bool QuadSimulator::receive(const SetpointTrajectory& trajectory) { return setpoints_.receive(trajectory, time_); }
+
+void QuadSimulator::advanceTo(double t) {
+  if (!std::isfinite(t)) return;
+  if (!clock_set_) {
+    time_ = t;
+    clock_set_ = true;
+  }
+  if (t <= time_) return;
+  constexpr double kRounding = 1e-9;  // a whole number of steps must not become one more
+  const auto steps = std::max<long long>(1, std::llround(std::ceil((t - time_) / simulation_.step - kRounding)));
+  const double begin = time_;
+  const double dt = (t - begin) / static_cast<double>(steps);
+  for (long long step = 1; step <= steps; ++step) {
+    control();
+    state_ = stepRungeKutta4(state_, rotor_speeds_, disturbance_, dt, vehicle_);
+    time_ = step == steps ? t : begin + static_cast<double>(step) * dt;
+  }
+}
+
+void QuadSimulator::resetClock(double t) {
+  time_ = t;
+  clock_set_ = true;
+  setpoints_.hold(state_.p);
+}
+
+void QuadSimulator::setDisturbance(const Vector3& acceleration) {
+  if (!acceleration.allFinite()) throw std::invalid_argument("QuadSimulator: the disturbance is not finite");
+  disturbance_ = acceleration;
+}
+
+Vector3 QuadSimulator::acceleration() const {
+  return dynamics(state_, rotorWrench(rotor_speeds_, vehicle_), disturbance_, vehicle_).v;
+}
+
+double QuadSimulator::thrust() const { return rotorWrench(rotor_speeds_, vehicle_).thrust; }
+
+UavMeasurement QuadSimulator::measure() {
+  UavMeasurement measurement;
+  measurement.received = true;
+  measurement.stamp = time_;
+  measurement.p = state_.p;
+  measurement.v = state_.v;
+  if (simulation_.position_noise > 0.0) measurement.p += noise_.vector(simulation_.position_noise);
+  if (simulation_.velocity_noise > 0.0) measurement.v += noise_.vector(simulation_.velocity_noise);
+  return measurement;
+}
+
+void QuadSimulator::control() {
+  const MotionSetpoint wanted = setpoints_.at(time_);
+  const Vector3 acceleration_command =
+      wanted.a + simulation_.position_gain * (wanted.p - state_.p) + simulation_.velocity_gain * (wanted.v - state_.v);
+  const Vector3 drag_acceleration = vehicle_.dragOverMass().cwiseProduct(state_.v);
+  const Vector3 limited = limitedThrustAcceleration(acceleration_command + drag_acceleration) - drag_acceleration;
+  // The attitude turns with the setpoint's jerk and with the feedback: without the latter's rate it would lag behind
+  // every correction. Where the limits cut in the command stands still instead.
+  Vector3 jerk_command = Vector3::Zero();
+  if (limited.isApprox(acceleration_command)) {
+    jerk_command = wanted.jerk + simulation_.position_gain * (wanted.v - state_.v) +
+                   simulation_.velocity_gain * (wanted.a - acceleration());
+  }
+  const FlatInputs flat = flatInputs(state_.v, limited, jerk_command, vehicle_);
+
+  const double tau_phi = flat.tau_phi + vehicle_.inertia_x * attitudeFeedback(flat.attitude.phi - state_.phi,
+                                                                              flat.phi_rate - state_.phi_rate);
+  const double tau_theta = flat.tau_theta + vehicle_.inertia_y * attitudeFeedback(flat.attitude.theta - state_.theta,
+                                                                                  flat.theta_rate - state_.theta_rate);
+  rotor_speeds_ = swarm_planner::rotorSpeeds(flat.attitude.thrust, tau_phi, tau_theta, vehicle_, &saturated_);
+}
+
+double QuadSimulator::attitudeFeedback(double angle_error, double rate_error) const {
+  return simulation_.attitude_gain * angle_error + simulation_.attitude_rate_gain * rate_error;
+}
+
+Vector3 QuadSimulator::limitedThrustAcceleration(const Vector3& wanted) const {
+  const double full_thrust = 4.0 * vehicle_.force_constant * vehicle_.max_rotor_speed * vehicle_.max_rotor_speed;
+  const double most = kThrustShare * full_thrust / vehicle_.mass;  // of |A + g e3| [m/s^2]
+  // Height comes first: it keeps the vehicle off the ground while a large sideways error is worked off.
+  const double lift = std::clamp(wanted.z() + vehicle_.gravity, std::min(kMinLift * vehicle_.gravity, most), most);
+  const double sideways = std::hypot(wanted.x(), wanted.y());
+  const double allowed = std::min(std::sqrt(most * most - lift * lift), lift * std::tan(simulation_.max_tilt));
+  const double scale = sideways > allowed ? allowed / sideways : 1.0;
+  return Vector3(scale * wanted.x(), scale * wanted.y(), lift - vehicle_.gravity);
+}
+
+}  // namespace swarm_planner
