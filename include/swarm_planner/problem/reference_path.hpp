@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "swarm_planner/config/types.hpp"
@@ -15,20 +16,29 @@ struct PathPoint {
 };
 
 /// The reference of one UAV: a polyline by arc length. Repeated points are dropped; a path of length
-/// zero is a single point with tangent e1.
+/// zero is a single point with tangent e1. Nothing but the constructor allocates.
 class ReferencePath {
  public:
+  /// Points closer than this to the one before count as repeated [m].
+  static constexpr double kShortestSegment = 1e-9;
+
   ReferencePath() = default;
+  /// At least one point, all finite [m].
   explicit ReferencePath(const std::vector<Vector3>& points);
 
   double length() const { return arc_lengths_.empty() ? 0.0 : arc_lengths_.back(); }
-  /// The point at `arc_length`, clamped to the path.
+  /// The point at `arc_length` [m], clamped to the path. At a corner the tangent is that of the segment to come.
   PathPoint at(double arc_length) const;
-  /// The point nearest to `position` among those within `window` [m] of arc length of `near`.
+  /// The point nearest to `position` among those within `window` [m] of arc length of `near` [m]: the window keeps
+  /// the foot from jumping where the path crosses itself. Of points equally near, the first.
   PathPoint nearest(const Vector3& position, double near, double window = 5.0) const;
   const std::vector<Vector3>& points() const { return points_; }
 
  private:
+  /// Index of the segment that holds `arc_length` in [0, length()]; needs two points.
+  std::size_t segmentAt(double arc_length) const;
+  PathPoint onSegment(std::size_t segment, double arc_length) const;
+
   std::vector<Vector3> points_;
   std::vector<double> arc_lengths_;
 };
@@ -40,13 +50,15 @@ struct TargetState {
   double arc_length = 0.0;      ///< [m]
 };
 
-/// A reference with the target that moves along it from time zero and stops at its end, eq. (16).
+/// A reference with the target that moves along it from time zero and stops at its end: X_m of eq. (16).
+/// A start beyond the end is the end.
 struct MovingTarget {
   ReferencePath path;
   double start = 0.0;      ///< arc length at time_zero [m]
   double speed = 0.0;      ///< [m/s]
   double time_zero = 0.0;  ///< absolute time at which it starts moving [s]
 
+  /// The target at absolute time `t` [s]; before time_zero it rests at its start.
   TargetState at(double t) const;
 };
 

@@ -1,0 +1,77 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/problem/reference_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swarm_planner {
+
+ReferencePath::ReferencePath(const std::vector<Vector3>& points) {
+  points_.reserve(points.size());
+  arc_lengths_.reserve(points.size());
+  for (const Vector3& point : points) {
+    const double step = points_.empty() ? 0.0 : (point - points_.back()).norm();
+    if (!points_.empty() && step < kShortestSegment) continue;
+    arc_lengths_.push_back(length() + step);
+    points_.push_back(point);
+  }
+}
+
+std::size_t ReferencePath::segmentAt(double arc_length) const {
+  const auto next = std::upper_bound(arc_lengths_.begin() + 1, arc_lengths_.end() - 1, arc_length);
+  return static_cast<std::size_t>(next - arc_lengths_.begin()) - 1;
+}
+
+PathPoint ReferencePath::onSegment(std::size_t segment, double arc_length) const {
+  const Vector3 step = points_[segment + 1] - points_[segment];
+  PathPoint point;
+  point.tangent = step / step.norm();
+  point.position = points_[segment] + (arc_length - arc_lengths_[segment]) * point.tangent;
+  point.arc_length = arc_length;
+  return point;
+}
+
+PathPoint ReferencePath::at(double arc_length) const {
+  if (points_.size() < 2) {
+    PathPoint point;
+    if (!points_.empty()) point.position = points_.front();
+    return point;
+  }
+  const double clamped = std::min(std::max(arc_length, 0.0), length());
+  return onSegment(segmentAt(clamped), clamped);
+}
+
+PathPoint ReferencePath::nearest(const Vector3& position, double near, double window) const {
+  PathPoint best = at(near);
+  if (points_.size() < 2) return best;
+  const double first = std::min(std::max(near - window, 0.0), length());
+  const double last = std::min(std::max(near + window, 0.0), length());
+  double best_squared = std::numeric_limits<double>::infinity();
+  for (std::size_t i = segmentAt(first); i + 1 < points_.size() && arc_lengths_[i] <= last; ++i) {
+    const double from = std::max(first, arc_lengths_[i]);
+    const double to = std::min(last, arc_lengths_[i + 1]);
+    PathPoint foot = onSegment(i, from);
+    const double along = std::min(std::max(foot.tangent.dot(position - foot.position), 0.0), to - from);
+    foot.position += along * foot.tangent;
+    foot.arc_length += along;
+    const double squared = (position - foot.position).squaredNorm();
+    if (squared < best_squared) {
+      best_squared = squared;
+      best = foot;
+    }
+  }
+  return best;
+}
+
+TargetState MovingTarget::at(double t) const {
+  const double moved = start + speed * std::max(0.0, t - time_zero);
+  const PathPoint point = path.at(moved);
+  TargetState target;
+  target.p = point.position;
+  target.arc_length = point.arc_length;
+  if (t >= time_zero && moved < path.length()) target.v = speed * point.tangent;
+  return target;
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,122 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/mission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+#include "swarm_planner/obstacles/pair_ellipsoid.hpp"
+
+namespace swarm_planner {
+
+namespace {
+
+std::string startKey(std::size_t uav) { return "uavs[" + std::to_string(uav) + "].start"; }
+
+std::string pairFault(const ScenarioUav& first, const ScenarioUav& second, const LimitParameters& limits) {
+  std::ostringstream text;
+  text << first.name << " and " << second.name << " start " << (first.start - second.start).norm()
+       << " m apart, inside the pair ellipsoid of pair_distance " << limits.pair_distance
+       << " m and pair_distance_vertical " << limits.pair_distance_vertical << " m";
+  return text.str();
+}
+
+/// UAVs that start too close to each other, eq. (14). Sorted along x, so that large swarms need not compare all pairs.
+void checkPairs(const std::vector<ScenarioUav>& uavs, const LimitParameters& limits, const std::string& source,
+                Faults& faults) {
+  std::vector<std::size_t> order(uavs.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return uavs[i].start.x() < uavs[j].start.x(); });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Vector3 d = uavs[order[j]].start - uavs[order[i]].start;
+      if (d.x() >= limits.pair_distance) break;
+      if (pairGauge(d, limits) >= 1.0) continue;
+      const auto [first, second] = std::minmax(order[i], order[j]);
+      faults.add(source, startKey(second), pairFault(uavs[first], uavs[second], limits));
+    }
+  }
+}
+
+/// UAVs that start closer than uav_radius to an obstacle's surface, or inside one.
+void checkObstacles(const Scenario& scenario, const LimitParameters& limits, const std::string& source,
+                    Faults& faults) {
+  for (const ScenarioObstacle& obstacle : scenario.obstacles) {
+    const Superellipsoid shape = makeObstacle(obstacle);
+    for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
+      const ScenarioUav& uav = scenario.uavs[i];
+      if (shape.distanceLowerBound(uav.start) >= limits.uav_radius) continue;
+      const double distance = shape.signedDistance(uav.start);
+      if (distance >= limits.uav_radius) continue;
+      std::ostringstream text;
+      if (distance < 0.0) {
+        text << uav.name << " starts inside obstacle " << obstacle.id;
+      } else {
+        text << uav.name << " starts " << distance << " m from the surface of obstacle " << obstacle.id
+             << ", less than uav_radius " << limits.uav_radius << " m";
+      }
+      faults.add(source, startKey(i), text.str());
+    }
+  }
+}
+
+void checkWorkspace(const Scenario& scenario, const std::string& source, Faults& faults) {
+  if (!scenario.workspace) return;
+  for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
+    const Vector3& start = scenario.uavs[i].start;
+    if ((start.array() >= scenario.workspace->min.array()).all() &&
+        (start.array() <= scenario.workspace->max.array()).all()) {
+      continue;
+    }
+    faults.add(source, startKey(i), scenario.uavs[i].name + " starts outside the workspace");
+  }
+}
+
+/// Whether the distances are fit to check starts with; if not, they are faults themselves.
+bool usable(const LimitParameters& limits) {
+  return limits.pair_distance > 0.0 && limits.pair_distance_vertical > 0.0 && limits.uav_radius >= 0.0;
+}
+
+/// Resolves parameters and checks starts, for a scenario without faults of its own.
+Mission resolve(const Scenario& scenario, const ParameterMap& given, const std::string& source, Faults& faults) {
+  Mission mission{scenario, resolveParameters(given, scenario.overrides, source, faults)};
+  const LimitParameters& limits = mission.parameters.limits;
+  if (usable(limits)) {
+    checkPairs(scenario.uavs, limits, source, faults);
+    checkObstacles(scenario, limits, source, faults);
+  }
+  checkWorkspace(scenario, source, faults);
+  return mission;
+}
+
+}  // namespace
+
+Mission loadMission(const std::string& scenario_path, const ParameterMap& given) {
+  Faults faults;
+  const Scenario scenario = parseScenarioFile(scenario_path, faults);
+  if (!faults.empty()) {
+    // The geometry of a faulty scenario means nothing; its parameters can still be judged.
+    resolveParameters(given, scenario.overrides, scenario_path, faults);
+    faults.throwIfAny();
+  }
+  Mission mission = resolve(scenario, given, scenario_path, faults);
+  faults.throwIfAny();
+  return mission;
+}
+
+Mission makeMission(const Scenario& scenario, const ParameterMap& given, const std::string& source) {
+  Faults faults;
+  Mission mission = resolve(scenario, given, source, faults);
+  faults.throwIfAny();
+  return mission;
+}
+
+Superellipsoid makeObstacle(const ScenarioObstacle& obstacle) {
+  return Superellipsoid(obstacle.id, obstacle.center, obstacle.radii, obstacle.exponents, obstacle.yaw,
+                        obstacle.velocity);
+}
+
+}  // namespace swarm_planner
