@@ -1,0 +1,261 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// If these fail, the closed-loop figures say nothing about real vehicles: the simulated quadrotor would not fly what
+// it was asked to, would fly what no quadrotor can, or would be upset by a bad message.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+
+#include "swarm_planner/simulation/quad_simulator.hpp"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kCycle = 0.3;
+constexpr double kSetpointPeriod = 0.05;
+
+/// A plan that speeds up sideways and upwards, turns and stops, within the planner's usual limits.
+Trajectory smoothPlan(double epoch, const Vector3& start) {
+  Trajectory plan;
+  plan.epoch = epoch;
+  plan.dt = kCycle;
+  KinematicState x;
+  x.p = start;
+  // Two smooth accelerations whose jerks sum to zero, so that the plan ends at rest.
+  for (int k = 0; k < kHorizon; ++k) {
+    const double phase = 2.0 * M_PI * (k + 0.5) / kHorizon;
+    plan.jerks[static_cast<std::size_t>(k)] =
+        Vector3(4.0 * std::cos(2.0 * phase), 3.0 * std::sin(3.0 * phase), 1.5 * std::cos(phase));
+  }
+  rollOut(x, plan);
+  return plan;
+}
+
+SetpointTrajectory sampled(const Trajectory& plan) {
+  SetpointTrajectory points;
+  samplePlan(plan, kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, points);
+  return points;
+}
+
+SetpointTrajectory single(double epoch, const Vector3& p) {
+  SetpointTrajectory trajectory;
+  trajectory.epoch = epoch;
+  trajectory.points.resize(1);
+  trajectory.points[0].p = p;
+  return trajectory;
+}
+
+class QuadSimulatorTest : public ::testing::Test {
+ protected:
+  Parameters parameters_;
+  Vector3 start_{1.0, -2.0, 20.0};
+};
+
+TEST_F(QuadSimulatorTest, HoversWhereItStartsUntilItIsToldOtherwise) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(100.0);
+  quad.advanceTo(110.0);
+  EXPECT_DOUBLE_EQ(quad.time(), 110.0);
+  EXPECT_LT((quad.state().p - start_).norm(), 1e-9);
+  EXPECT_NEAR(quad.thrust(), parameters_.vehicle.mass * parameters_.vehicle.gravity, 1e-9);
+  EXPECT_NEAR(quad.rotorSpeeds().mean(), 620.0, 2.0);
+}
+
+TEST_F(QuadSimulatorTest, TracksAPlannedTrajectory) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(5.0);
+  const Trajectory plan = smoothPlan(5.3, start_);
+  ASSERT_TRUE(quad.receive(sampled(plan)));
+  double worst = 0.0;
+  double farthest = 0.0;
+  for (double t = 5.0; t < 5.3 + plan.duration(); t += 0.01) {
+    quad.advanceTo(t);
+    const Vector3 wanted = t < plan.epoch ? start_ : plan.at(t).p;
+    worst = std::max(worst, (quad.state().p - wanted).norm());
+    farthest = std::max(farthest, (wanted - start_).norm());
+    EXPECT_NEAR(quad.trackingError(), (quad.state().p - wanted).norm(), 1e-6);
+  }
+  EXPECT_GT(farthest, 3.0);  // it was a flight
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST_F(QuadSimulatorTest, FlyingTakesNoMemory) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  ASSERT_TRUE(quad.receive(sampled(smoothPlan(0.3, start_))));
+  ASSERT_TRUE(quad.receive(sampled(smoothPlan(0.6, start_))));
+  const long before = allocations;
+  quad.advanceTo(10.0);
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST_F(QuadSimulatorTest, SettlesAfterAStep) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  const Vector3 goal = start_ + Vector3(3.0, -2.0, 1.0);
+  ASSERT_TRUE(quad.receive(single(0.0, goal)));
+  double overshoot = 0.0;
+  for (double t = 0.0; t < 8.0; t += 0.01) {
+    quad.advanceTo(t);
+    overshoot =
+        std::max(overshoot, (quad.state().p - start_).dot((goal - start_).normalized()) - (goal - start_).norm());
+  }
+  EXPECT_LT((quad.state().p - goal).norm(), 0.01);
+  EXPECT_LT(quad.state().v.norm(), 0.01);
+  EXPECT_LT(overshoot, 0.25 * (goal - start_).norm());
+}
+
+TEST_F(QuadSimulatorTest, RotorsAndTiltStayWithinTheirLimitsHoweverFarTheGoal) {
+  for (const Vector3& offset : {Vector3(500.0, 0.0, 0.0), Vector3(0.0, 0.0, 300.0), Vector3(-200.0, 300.0, -100.0)}) {
+    QuadSimulator quad(parameters_, start_, 1);
+    quad.advanceTo(0.0);
+    ASSERT_TRUE(quad.receive(single(0.0, start_ + offset)));
+    bool saturated = false;
+    for (double t = 0.0; t < 60.0; t += 0.01) {
+      quad.advanceTo(t);
+      saturated = saturated || quad.saturated();
+      ASSERT_LE(quad.rotorSpeeds().maxCoeff(), parameters_.vehicle.max_rotor_speed);
+      ASSERT_GE(quad.rotorSpeeds().minCoeff(), 0.0);
+      ASSERT_LT(std::max(std::abs(quad.state().phi), std::abs(quad.state().theta)), 1.5);
+      ASSERT_TRUE(quad.state().p.allFinite());
+    }
+    EXPECT_LT((quad.state().p - start_ - offset).norm(), 0.05) << offset.transpose();
+  }
+}
+
+TEST_F(QuadSimulatorTest, WeakRotorsAreWhatLimitsTheFlight) {
+  parameters_.vehicle.max_rotor_speed = 700.0;  // little above hover
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  ASSERT_TRUE(quad.receive(single(0.0, start_ + Vector3(0.0, 0.0, 100.0))));
+  quad.advanceTo(0.5);
+  const double hover = 620.0 * 620.0;
+  const double most = parameters_.vehicle.gravity * (700.0 * 700.0 / hover - 1.0);
+  EXPECT_GT(quad.state().v.z(), 0.2 * most * 0.5);
+  EXPECT_LT(quad.state().v.z(), 1.05 * most * 0.5);
+}
+
+TEST_F(QuadSimulatorTest, ComesBackAfterAGust) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  quad.setDisturbance(Vector3(2.0, -1.0, 0.0));
+  quad.advanceTo(2.0);
+  const double blown = (quad.state().p - start_).norm();
+  EXPECT_GT(blown, 0.2);
+  EXPECT_LT(blown, 1.0);
+  quad.setDisturbance(Vector3::Zero());
+  quad.advanceTo(8.0);
+  EXPECT_LT((quad.state().p - start_).norm(), 0.01);
+  EXPECT_THROW(quad.setDisturbance(Vector3(std::nan(""), 0.0, 0.0)), std::invalid_argument);
+}
+
+TEST_F(QuadSimulatorTest, FliesOnWithTheOldTrajectoryUntilTheNewOnesEpoch) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  ASSERT_TRUE(quad.receive(single(0.0, start_ + Vector3(1.0, 0.0, 0.0))));
+  ASSERT_TRUE(quad.receive(single(2.0, start_ + Vector3(0.0, 5.0, 0.0))));
+  quad.advanceTo(1.99);
+  EXPECT_EQ(quad.setpoint().p, start_ + Vector3(1.0, 0.0, 0.0));
+  quad.advanceTo(2.01);
+  EXPECT_EQ(quad.setpoint().p, start_ + Vector3(0.0, 5.0, 0.0));
+}
+
+TEST_F(QuadSimulatorTest, HoldsTheLastPositionAfterTheEnd) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  const Trajectory plan = smoothPlan(0.3, start_);
+  ASSERT_TRUE(quad.receive(sampled(plan)));
+  quad.advanceTo(plan.epoch + plan.duration() + 6.0);
+  EXPECT_LT((quad.state().p - plan.knots.back().p).norm(), 0.01);
+  EXPECT_LT(quad.state().v.norm(), 0.01);
+}
+
+TEST_F(QuadSimulatorTest, RefusesWhatCannotBeFlownAndGoesOn) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  const Vector3 goal = start_ + Vector3(1.0, 0.0, 0.0);
+  ASSERT_TRUE(quad.receive(single(0.0, goal)));
+  const SetpointTrajectory good = sampled(smoothPlan(0.3, start_));
+  const auto spoiled = [&good](auto&& spoil) {
+    SetpointTrajectory bad = good;
+    spoil(bad);
+    return bad;
+  };
+  EXPECT_FALSE(quad.receive(SetpointTrajectory{}));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.epoch = nan; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].p.y() = nan; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].v.z() = infinity; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].a.x() = nan; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].p.x() = 1e300; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].time_from_start = nan; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[3].time_from_start = x.points[2].time_from_start; })));
+  EXPECT_FALSE(quad.receive(spoiled([&](auto& x) { x.points[0].time_from_start = -0.1; })));
+  quad.advanceTo(10.0);
+  EXPECT_LT((quad.state().p - goal).norm(), 0.01);
+}
+
+TEST_F(QuadSimulatorTest, MeasuresTheTruthWithoutNoise) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(3.0);
+  const UavMeasurement measured = quad.measure();
+  EXPECT_TRUE(measured.received);
+  EXPECT_EQ(measured.stamp, 3.0);
+  EXPECT_EQ(measured.p, quad.state().p);
+  EXPECT_EQ(measured.v, quad.state().v);
+}
+
+TEST_F(QuadSimulatorTest, NoiseHasTheStatedDeviationAndFollowsTheSeed) {
+  parameters_.simulation.position_noise = 0.1;
+  parameters_.simulation.velocity_noise = 0.3;
+  QuadSimulator quad(parameters_, start_, 7), same(parameters_, start_, 7), other(parameters_, start_, 8);
+  constexpr int kCount = 20000;
+  Vector3 mean = Vector3::Zero(), square = Vector3::Zero(), velocity_square = Vector3::Zero();
+  for (int i = 0; i < kCount; ++i) {
+    const UavMeasurement measured = quad.measure();
+    const UavMeasurement repeated = same.measure();
+    ASSERT_EQ(measured.p, repeated.p);
+    ASSERT_EQ(measured.v, repeated.v);
+    ASSERT_NE(measured.p, other.measure().p);
+    mean += (measured.p - start_) / kCount;
+    square += (measured.p - start_).cwiseAbs2() / kCount;
+    velocity_square += measured.v.cwiseAbs2() / kCount;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(mean(axis), 0.0, 4.0 * 0.1 / std::sqrt(kCount));
+    EXPECT_NEAR(std::sqrt(square(axis)), 0.1, 0.1 * 4.0 / std::sqrt(2.0 * kCount));
+    EXPECT_NEAR(std::sqrt(velocity_square(axis)), 0.3, 0.3 * 4.0 / std::sqrt(2.0 * kCount));
+  }
+}
+
+TEST_F(QuadSimulatorTest, TimeThatGoesBackOrIsNotANumberChangesNothing) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(10.0);
+  quad.advanceTo(5.0);
+  quad.advanceTo(std::nan(""));
+  EXPECT_EQ(quad.time(), 10.0);
+  ASSERT_TRUE(quad.receive(single(20.0, start_ + Vector3(9.0, 0.0, 0.0))));
+  quad.resetClock(5.0);
+  quad.advanceTo(30.0);
+  EXPECT_LT((quad.state().p - start_).norm(), 1e-6);  // the trajectory belonged to the old time
+}
+
+}  // namespace
+}  // namespace swarm_planner
