@@ -32,8 +32,10 @@ build_packages=(
   ninja-build
   python3-roslaunch
   python3-rostest
+  ros-geometry-msgs
   ros-message-generation
   ros-message-runtime
+  ros-std-msgs
 )
 run_packages=(python3-rosbag rosbash rosout)
 view_packages=(rviz x11-utils)
@@ -111,7 +113,13 @@ build() {
       fail "CMake could not configure the package"
     }
   fi
-  cmake --build "$build_dir" --parallel "$(parallel_jobs)" --target "$@"
+  local make=(cmake --build "$build_dir" --parallel "$(parallel_jobs)" --target "$@")
+  if [[ -t 1 ]]; then
+    "${make[@]}"
+  else
+    # A log needs no line for each message that code is generated from.
+    "${make[@]}" | sed -uE '/^\[[0-9]+\/[0-9]+\] (cd |Generating |Re-checking)/d'
+  fi
 }
 
 # Makes rospack, roslaunch and rostest see the package as it was built.
