@@ -7,10 +7,6 @@
 
 namespace swarm_planner {
 
-double boxDistance(const Vector3& point, const Superellipsoid& obstacle) {
-  return ((point - obstacle.center()).cwiseAbs() - obstacle.halfExtents()).cwiseMax(0.0).norm();
-}
-
 ObstacleWatch::ObstacleWatch(double uav_radius)
     : uav_radius_(uav_radius), min_clearance_(std::numeric_limits<double>::infinity()) {}
 
@@ -51,7 +47,7 @@ double ObstacleWatch::farthestObstacleMove(const std::vector<Superellipsoid>& ob
 void ObstacleWatch::look(std::size_t uav, const Vector3& position, const std::vector<Superellipsoid>& obstacles) {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
-    double clearance = boxDistance(position, obstacles[i]) - uav_radius_;
+    double clearance = obstacles[i].distanceLowerBound(position) - uav_radius_;
     if (clearance < std::max(min_clearance_, 0.0)) {
       clearance = obstacles[i].signedDistance(position) - uav_radius_;
       min_clearance_ = std::min(min_clearance_, clearance);

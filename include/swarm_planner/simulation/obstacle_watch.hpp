@@ -50,7 +50,4 @@ class ObstacleWatch {
   std::vector<Contact> entered_;
 };
 
-/// Least distance that a point can have from the obstacle, from its axis-aligned bounding box [m]; 0 inside the box.
-double boxDistance(const Vector3& point, const Superellipsoid& obstacle);
-
 }  // namespace swarm_planner
