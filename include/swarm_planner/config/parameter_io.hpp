@@ -20,23 +20,27 @@ using ParameterMap = std::map<std::string, ParameterValue>;
 
 /// One line of the parameter table.
 struct ParameterInfo {
-  std::string name;           ///< flat name, e.g. "max_speed"
-  std::string unit;           ///< e.g. "m/s", "" if none
+  std::string name;  ///< flat name, e.g. "max_speed"
+  std::string unit;  ///< e.g. "m/s", "" if none
   std::string description;
-  ParameterValue default_value;
-  bool has_rule = false;      ///< may be "auto"
-  bool overridable = false;   ///< scenarios may set it: planner and vehicle parameters, not simulation or input
+  ParameterValue default_value;  ///< "auto" where a rule gives it
+  std::string range;             ///< allowed values, e.g. "> 0", "[1, 50]", "true or false"
+  std::string file;              ///< the shipped file that lists it: "planner.yaml" or "simulation.yaml"
+  bool has_rule = false;         ///< may be "auto"
+  bool overridable = false;      ///< scenarios may set it: planner and vehicle parameters, not simulation or input
 };
 
 /// Every parameter, in the order of the shipped YAML.
 const std::vector<ParameterInfo>& parameterTable();
 
-/// Reads config/planner.yaml (a flat map). Faults as for scenarios; keys missing from a file are faults
-/// only if `require_all`.
+/// Reads a file of parameters such as config/planner.yaml (a flat map). Faults as for scenarios; a value with a
+/// fault is left out of the map. With `require_all` every parameter of the shipped files that this file has a
+/// parameter of must be there: a planner.yaml need not hold the parameters of simulation.yaml.
 ParameterMap parseParameterFile(const std::string& path, bool require_all, Faults& faults);
 
 /// Values by precedence: scenario overrides, then `given`, then defaults; then the rules for whatever is
-/// still "auto" or unset; then every range check. Faults name the key and the allowed range.
+/// still "auto" or unset; then every range check, also of one parameter against another. Faults name the key and
+/// the allowed range; their source is `overrides_source` (key "overrides.<name>") or "parameters".
 /// The rules (documented in doc/parameters.md):
 ///   sampling_time = pair_distance / max_speed rounded down to 0.05 s, within [0.15, 0.3]
 ///   cycle_period = sampling_time

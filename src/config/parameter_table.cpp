@@ -1,0 +1,294 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "parameter_table.hpp"
+
+#include <utility>
+
+namespace swarm_planner {
+
+namespace {
+
+using Range = NumberRange;
+
+constexpr const char* kPlannerFile = "planner.yaml";
+constexpr const char* kSimulationFile = "simulation.yaml";
+
+/// The default is what a fresh Parameters holds: parameters.hpp alone gives it.
+ParameterValue defaultValue(const ParameterSlot& slot) {
+  Parameters defaults;
+  return std::visit([&defaults](const auto& get) { return ParameterValue(get(defaults)); }, slot);
+}
+
+class TableBuilder {
+ public:
+  /// Of the parameters added from here on: the shipped file, and whether scenarios may set them.
+  void section(const char* file, bool overridable) {
+    file_ = file;
+    overridable_ = overridable;
+  }
+
+  void number(const char* name, const char* unit, Range range, double& (*slot)(Parameters&), const char* description) {
+    add(name, unit, range, slot, description, range.text());
+  }
+
+  void wholeNumber(const char* name, Range range, int& (*slot)(Parameters&), const char* description) {
+    add(name, "", range, slot, description, range.text());
+  }
+
+  /// Never overridable: overrides are numbers.
+  void boolean(const char* name, bool& (*slot)(Parameters&), const char* description) {
+    add(name, "", Range::finite(), slot, description, "true or false");
+    entries_.back().info.overridable = false;
+  }
+
+  /// The parameter added last follows a rule unless it is given.
+  void withRule() {
+    entries_.back().info.has_rule = true;
+    entries_.back().info.default_value = std::string("auto");
+  }
+
+  std::vector<ParameterEntry> take() { return std::move(entries_); }
+
+ private:
+  void add(const char* name, const char* unit, Range range, ParameterSlot slot, const char* description,
+           std::string range_text) {
+    ParameterEntry entry;
+    entry.info.name = name;
+    entry.info.unit = unit;
+    entry.info.description = description;
+    entry.info.default_value = defaultValue(slot);
+    entry.info.range = std::move(range_text);
+    entry.info.file = file_;
+    entry.info.overridable = overridable_;
+    entry.range = range;
+    entry.slot = slot;
+    entries_.push_back(std::move(entry));
+  }
+
+  const char* file_ = kPlannerFile;
+  bool overridable_ = true;
+  std::vector<ParameterEntry> entries_;
+};
+
+void addLimits(TableBuilder& table) {
+  using P = Parameters;
+  Range or_infinity = Range::above(0.0);
+  or_infinity.allows_infinity = true;
+  table.section(kPlannerFile, true);
+  table.number(
+      "max_speed", "m/s", Range::aboveUpTo(0.0, 100.0), [](P& p) -> double& { return p.limits.max_speed; },
+      "most speed, Euclidean norm");
+  table.number(
+      "max_acceleration", "m/s^2", or_infinity, [](P& p) -> double& { return p.limits.max_acceleration; },
+      "most acceleration, Euclidean norm; .inf: the thrust alone limits it");
+  table.number(
+      "max_thrust_ratio", "", Range::aboveUpTo(1.0, 10.0), [](P& p) -> double& { return p.limits.max_thrust_ratio; },
+      "most thrust over weight, T_max / (M g) of (6)");
+  table.number(
+      "min_thrust_ratio", "", Range::open(0.0, 1.0), [](P& p) -> double& { return p.limits.min_thrust_ratio; },
+      "least vertical thrust over weight, (A_z + g) / g; keeps the vehicle upright");
+  table.number(
+      "uav_radius", "m", Range::aboveUpTo(0.0, 10.0), [](P& p) -> double& { return p.limits.uav_radius; },
+      "least distance of a UAV's centre to an obstacle's surface");
+  table.number(
+      "pair_distance", "m", Range::aboveUpTo(0.0, 100.0), [](P& p) -> double& { return p.limits.pair_distance; },
+      "R_CA of (14), least centre distance of two UAVs side by side");
+  table.number(
+      "pair_distance_vertical", "m", Range::aboveUpTo(0.0, 100.0),
+      [](P& p) -> double& { return p.limits.pair_distance_vertical; },
+      "least centre distance of two UAVs above each other (downwash)");
+  table.withRule();
+  table.number(
+      "tracking_margin", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_margin; },
+      "what the planner keeps on top of uav_radius and pair_distance for tracking errors");
+  table.withRule();
+  table.boolean(
+      "avoidance", [](P& p) -> bool& { return p.limits.avoidance; },
+      "false: plans ignore obstacles and other UAVs; for negative controls only");
+}
+
+void addTime(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.number(
+      "sampling_time", "s", Range::closed(0.05, 1.0), [](P& p) -> double& { return p.time.sampling_time; },
+      "Delta t, length of a stage of the horizon");
+  table.withRule();
+  table.number(
+      "cycle_period", "s", Range::closed(0.01, 1.0), [](P& p) -> double& { return p.time.cycle_period; },
+      "time from one plan to the next");
+  table.withRule();
+}
+
+void addCost(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.number(
+      "alpha", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.alpha; },
+      "weight in (16) of the horizontal deviation from the reference");
+  table.number(
+      "beta", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.beta; },
+      "weight in (16) of the vertical deviation from the reference");
+  table.number(
+      "eta", "", Range::above(0.0), [](P& p) -> double& { return p.cost.eta; },
+      "weight in (16) of the distance to the moving target's state");
+  table.number(
+      "zeta", "", Range::above(0.0), [](P& p) -> double& { return p.cost.zeta; },
+      "weight in (16) of the rate of change of the control");
+  table.withRule();
+  table.number(
+      "velocity_time", "s", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.velocity_time; },
+      "in eta's term a velocity error counts as the way it makes in this time");
+  table.withRule();
+  table.number(
+      "robustness_gain", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.robustness_gain; },
+      "q of (9), weight of the robustness function; 0 switches it off");
+  table.number(
+      "robustness_inner", "", Range::above(1.0), [](P& p) -> double& { return p.cost.robustness_inner; },
+      "r_a of (11): up to this value of S the robustness function counts in full");
+  table.number(
+      "robustness_outer", "", Range::above(1.0), [](P& p) -> double& { return p.cost.robustness_outer; },
+      "r_b of (11): from this value of S on it does not count; above robustness_inner");
+  table.number(
+      "epsilon_s", "", Range::aboveUpTo(0.0, 1.0), [](P& p) -> double& { return p.cost.epsilon_s; },
+      "eps_s of (7) and (8): plans keep ln S at least this large");
+}
+
+void addSqp(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.wholeNumber(
+      "max_iterations", Range::closed(1.0, 50.0), [](P& p) -> int& { return p.sqp.max_iterations; },
+      "most quadratic programs per UAV and cycle");
+  table.number(
+      "step_tolerance", "m", Range::above(0.0), [](P& p) -> double& { return p.sqp.step_tolerance; },
+      "iterations end once no knot of the plan moves by more");
+  table.number(
+      "slack_linear", "1/m", Range::above(0.0), [](P& p) -> double& { return p.sqp.slack_linear; },
+      "penalty of a violated constraint, linear part");
+  table.number(
+      "slack_quadratic", "1/m^2", Range::above(0.0), [](P& p) -> double& { return p.sqp.slack_quadratic; },
+      "penalty of a violated constraint, quadratic part");
+}
+
+void addInput(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, false);
+  table.number(
+      "odometry_timeout", "s", Range::above(0.0), [](P& p) -> double& { return p.input.odometry_timeout; },
+      "older odometry is not used");
+  table.number(
+      "track_timeout", "s", Range::above(0.0), [](P& p) -> double& { return p.input.track_timeout; },
+      "an obstacle track is predicted for at most so long");
+  table.number(
+      "tracking_time", "s", Range::above(0.0), [](P& p) -> double& { return p.input.tracking_time; },
+      "time constant with which a vehicle's deviation from its plan decays");
+  table.boolean(
+      "autostart", [](P& p) -> bool& { return p.input.autostart; },
+      "start as soon as the odometry of every UAV has arrived");
+}
+
+void addVehicle(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.number(
+      "mass", "kg", Range::above(0.0), [](P& p) -> double& { return p.vehicle.mass; }, "M of Table 1");
+  table.number(
+      "gravity", "m/s^2", Range::above(0.0), [](P& p) -> double& { return p.vehicle.gravity; }, "g of Table 1");
+  table.number(
+      "arm_length", "m", Range::above(0.0), [](P& p) -> double& { return p.vehicle.arm_length; },
+      "L of Table 1, half the distance of two opposite rotors");
+  table.number(
+      "drag_x", "N s/m", Range::atLeast(0.0), [](P& p) -> double& { return p.vehicle.drag_x; }, "K_dx of Table 1");
+  table.number(
+      "drag_y", "N s/m", Range::atLeast(0.0), [](P& p) -> double& { return p.vehicle.drag_y; }, "K_dy of Table 1");
+  table.number(
+      "drag_z", "N s/m", Range::atLeast(0.0), [](P& p) -> double& { return p.vehicle.drag_z; }, "K_dz of Table 1");
+  table.number(
+      "force_constant", "N s^2/rad^2", Range::above(0.0), [](P& p) -> double& { return p.vehicle.force_constant; },
+      "k: thrust of a rotor over its speed squared (Table 1 calls it b)");
+  table.number(
+      "rotor_drag_constant", "N m s^2/rad^2", Range::above(0.0),
+      [](P& p) -> double& { return p.vehicle.rotor_drag_constant; },
+      "b: drag torque of a rotor over its speed squared (Table 1 calls it k)");
+  table.number(
+      "inertia_x", "kg m^2", Range::above(0.0), [](P& p) -> double& { return p.vehicle.inertia_x; }, "I_x of Table 1");
+  table.number(
+      "inertia_y", "kg m^2", Range::above(0.0), [](P& p) -> double& { return p.vehicle.inertia_y; }, "I_y of Table 1");
+  table.number(
+      "inertia_z", "kg m^2", Range::above(0.0), [](P& p) -> double& { return p.vehicle.inertia_z; }, "I_z of Table 1");
+  table.number(
+      "max_rotor_speed", "rad/s", Range::above(0.0), [](P& p) -> double& { return p.vehicle.max_rotor_speed; },
+      "saturation of each rotor");
+}
+
+void addSimulation(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kSimulationFile, false);
+  table.number(
+      "step", "s", Range::open(0.0, 0.02), [](P& p) -> double& { return p.simulation.step; },
+      "integration step of the dynamics");
+  table.number(
+      "odometry_rate", "Hz", Range::aboveUpTo(0.0, 1000.0), [](P& p) -> double& { return p.simulation.odometry_rate; },
+      "odometry messages per second and UAV");
+  table.number(
+      "track_rate", "Hz", Range::aboveUpTo(0.0, 1000.0), [](P& p) -> double& { return p.simulation.track_rate; },
+      "obstacle track messages per second");
+  table.number(
+      "position_gain", "1/s^2", Range::above(0.0), [](P& p) -> double& { return p.simulation.position_gain; },
+      "acceleration per position error");
+  table.number(
+      "velocity_gain", "1/s", Range::above(0.0), [](P& p) -> double& { return p.simulation.velocity_gain; },
+      "acceleration per velocity error");
+  table.number(
+      "attitude_gain", "1/s^2", Range::above(0.0), [](P& p) -> double& { return p.simulation.attitude_gain; },
+      "angular acceleration per angle error");
+  table.number(
+      "attitude_rate_gain", "1/s", Range::above(0.0), [](P& p) -> double& { return p.simulation.attitude_rate_gain; },
+      "angular acceleration per angular rate error");
+  table.number(
+      "max_tilt", "rad", Range::aboveUpTo(0.0, 1.5), [](P& p) -> double& { return p.simulation.max_tilt; },
+      "commanded roll and pitch saturate here");
+  table.number(
+      "position_noise", "m", Range::atLeast(0.0), [](P& p) -> double& { return p.simulation.position_noise; },
+      "standard deviation of each coordinate of the measured position");
+  table.number(
+      "velocity_noise", "m/s", Range::atLeast(0.0), [](P& p) -> double& { return p.simulation.velocity_noise; },
+      "standard deviation of each coordinate of the measured velocity");
+  table.wholeNumber(
+      "seed", Range::atLeast(0.0), [](P& p) -> int& { return p.simulation.seed; }, "seed of the sensor noise");
+}
+
+}  // namespace
+
+const std::vector<ParameterEntry>& parameterEntries() {
+  static const std::vector<ParameterEntry> kEntries = [] {
+    TableBuilder table;
+    addLimits(table);
+    addTime(table);
+    addCost(table);
+    addSqp(table);
+    addInput(table);
+    addVehicle(table);
+    addSimulation(table);
+    return table.take();
+  }();
+  return kEntries;
+}
+
+const ParameterEntry* findParameter(const std::string& name) {
+  for (const ParameterEntry& entry : parameterEntries()) {
+    if (entry.info.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+const std::vector<ParameterInfo>& parameterTable() {
+  static const std::vector<ParameterInfo> kTable = [] {
+    std::vector<ParameterInfo> table;
+    for (const ParameterEntry& entry : parameterEntries()) table.push_back(entry.info);
+    return table;
+  }();
+  return kTable;
+}
+
+}  // namespace swarm_planner

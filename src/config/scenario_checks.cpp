@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "scenario_checks.hpp"
+
+#include <algorithm>
+
+namespace swarm_planner {
+
+namespace {
+
+// <cctype> depends on the locale; ROS names do not.
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+bool isGraphName(const std::string& name) {
+  if (name.empty() || !isLetter(name.front()) || name.back() == '/') return false;
+  if (name.find("//") != std::string::npos) return false;
+  return std::all_of(name.begin(), name.end(),
+                     [](char c) { return isLetter(c) || isDigit(c) || c == '_' || c == '/'; });
+}
+
+bool isFrameName(const std::string& name) {
+  constexpr char kLastControl = ' ', kDelete = 127;
+  if (name.empty() || name.front() == '/') return false;
+  return std::all_of(name.begin(), name.end(), [](char c) { return c > kLastControl && c != kDelete; });
+}
+
+bool targetCrosses(const ScenarioUav& uav, double x) {
+  Vector3 target = uav.reference.front();
+  double to_walk = uav.target.start;
+  auto next = uav.reference.begin() + 1;
+  for (; next != uav.reference.end(); ++next) {
+    const Vector3 step = *next - target;
+    if (to_walk < step.norm()) {
+      target += to_walk * step.normalized();
+      break;
+    }
+    to_walk -= step.norm();
+    target = *next;
+  }
+  if (target.x() >= x) return true;
+  return uav.target.speed > 0.0 &&
+         std::any_of(next, uav.reference.end(), [x](const Vector3& point) { return point.x() >= x; });
+}
+
+}  // namespace swarm_planner

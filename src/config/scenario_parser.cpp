@@ -1,0 +1,188 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <map>
+
+#include "parameter_table.hpp"
+#include "scenario_checks.hpp"
+#include "spelling.hpp"
+#include "swarm_planner/config/scenario.hpp"
+#include "yaml_reader.hpp"
+
+namespace swarm_planner {
+
+namespace {
+
+using Range = NumberRange;
+
+/// Remembers which values were seen under which key, and faults a repetition.
+template <typename Value>
+class Uniqueness {
+ public:
+  void check(const YamlMap& map, const std::string& key, const Value& value, const std::string& owner) {
+    const auto [first, is_new] = owners_.emplace(value, owner);
+    if (!is_new) map.find(key)->unexpected("another " + key + " than that of " + first->second);
+  }
+
+ private:
+  std::map<Value, std::string> owners_;
+};
+
+void readEnd(const YamlNode& node, EndCondition& end) {
+  const YamlMap map(node, {"target_x", "duration", "all_at_goal", "timeout", "tolerance"});
+  if (!map.isMap()) return;
+  const bool at_goal = map.has("all_at_goal");
+  const int kinds = int{map.has("target_x")} + int{map.has("duration")} + int{at_goal};
+  if (kinds != 1) {
+    node.fault("found " + std::to_string(kinds) + " of target_x, duration and all_at_goal, expected exactly one");
+  }
+  double value = 0.0;
+  if (map.has("target_x") && map.read("target_x", Range::finite(), value)) end.target_x = value;
+  if (map.has("duration") && map.read("duration", Range::above(0.0), value)) end.duration = value;
+  if (at_goal) {
+    const std::optional<bool> given = map.find("all_at_goal")->boolean();
+    if (given && !*given) map.find("all_at_goal")->unexpected("true (or target_x or duration in its place)");
+    end.all_at_goal = given.value_or(false);
+    map.read("timeout", Range::above(0.0), end.timeout);
+    map.read("tolerance", Range::above(0.0), end.tolerance);
+    return;
+  }
+  for (const char* key : {"timeout", "tolerance"}) {
+    if (map.has(key)) map.find(key)->fault("only goes with all_at_goal");
+  }
+}
+
+/// Returns whether every point could be read.
+bool readReference(const YamlMap& map, std::vector<Vector3>& reference) {
+  const std::string expected = "a list of at least one point [x, y, z]";
+  const YamlNode* node = map.require("reference", expected);
+  const auto points = node ? node->list(expected) : std::nullopt;
+  if (!points) return false;
+  if (points->empty()) node->unexpected(expected);
+  for (const YamlNode& point : *points) {
+    if (const std::optional<Vector3> position = point.vector3(Range::finite())) reference.push_back(*position);
+  }
+  return !points->empty() && reference.size() == points->size();
+}
+
+bool readTarget(const YamlMap& map, TargetMotion& target) {
+  const YamlNode* node = map.require("target", "a map {start: [m], speed: [m/s]}");
+  if (node == nullptr) return false;
+  const YamlMap target_map(*node, {"start", "speed"});
+  const bool has_start = target_map.read("start", Range::atLeast(0.0), target.start);
+  return target_map.read("speed", Range::atLeast(0.0), target.speed) && has_start;
+}
+
+ScenarioUav readUav(const YamlNode& node, const std::optional<double>& end_x, Uniqueness<std::string>& names) {
+  const YamlMap map(node, {"name", "start", "reference", "target"});
+  ScenarioUav uav;
+  if (map.read("name", uav.name)) {
+    if (!isGraphName(uav.name)) {
+      map.find("name")->unexpected("a relative ROS name: a letter, then letters, digits, underscores, single slashes");
+    }
+    names.check(map, "name", uav.name, node.key());
+  }
+  map.read("start", Range::finite(), uav.start);
+  const bool has_reference = readReference(map, uav.reference);
+  const bool has_target = readTarget(map, uav.target);
+  if (end_x && has_reference && has_target && !targetCrosses(uav, *end_x)) {
+    map.find("reference")->fault("the target never crosses end.target_x, so that the run would not end");
+  }
+  return uav;
+}
+
+ScenarioObstacle readObstacle(const YamlNode& node, Uniqueness<int>& ids) {
+  const YamlMap map(node, {"id", "center", "radii", "exponents", "velocity", "yaw"});
+  ScenarioObstacle obstacle;
+  if (map.read("id", Range::atLeast(0.0), obstacle.id)) ids.check(map, "id", obstacle.id, node.key());
+  map.read("center", Range::finite(), obstacle.center);
+  map.read("radii", Range::above(0.0), obstacle.radii);
+  map.read("exponents", Range::atLeast(2.0), obstacle.exponents);
+  map.read("velocity", Range::finite(), obstacle.velocity);
+  if (map.has("yaw")) map.read("yaw", Range::finite(), obstacle.yaw);
+  return obstacle;
+}
+
+void readWorkspace(const YamlNode& node, std::optional<Workspace>& out) {
+  const YamlMap map(node, {"min", "max"});
+  Workspace workspace;
+  const bool has_min = map.read("min", Range::finite(), workspace.min);
+  const bool has_max = map.read("max", Range::finite(), workspace.max);
+  if (!has_min || !has_max) return;
+  if ((workspace.min.array() < workspace.max.array()).all()) {
+    out = workspace;
+  } else {
+    node.fault("expected min < max in each coordinate");
+  }
+}
+
+void readMap(const YamlNode& node) {
+  const YamlMap map(node, {"octomap"});
+  std::string file;
+  map.read("octomap", file);
+  if (map.isMap()) node.fault("maps are not supported yet, expected obstacles only");
+}
+
+void readOverrides(const YamlNode& node, std::map<std::string, double>& overrides) {
+  const auto entries = node.entries();
+  if (!entries) return;
+  for (const auto& [name, value_node] : *entries) {
+    if (const std::optional<std::string> message = overrideNameFault(name)) {
+      value_node.fault(*message);
+      continue;
+    }
+    const std::optional<double> value = value_node.anyNumber();
+    if (value && !overrideFault(name, *value)) {
+      overrides[name] = *value;
+    } else {
+      value_node.unexpected(expectedValue(*findParameter(name), false));
+    }
+  }
+}
+
+void readUavs(const YamlMap& root, const std::optional<double>& end_x, std::vector<ScenarioUav>& uavs) {
+  const std::string expected = "a list of at least one UAV";
+  const YamlNode* node = root.require("uavs", expected);
+  const auto elements = node ? node->list(expected) : std::nullopt;
+  if (!elements) return;
+  if (elements->empty()) node->unexpected(expected);
+  Uniqueness<std::string> names;
+  for (const YamlNode& element : *elements) uavs.push_back(readUav(element, end_x, names));
+}
+
+void readObstacles(const YamlNode& node, std::vector<ScenarioObstacle>& obstacles) {
+  const auto elements = node.list("a list of obstacles");
+  if (!elements) return;
+  Uniqueness<int> ids;
+  for (const YamlNode& element : *elements) obstacles.push_back(readObstacle(element, ids));
+}
+
+Scenario readScenario(const YamlNode& node) {
+  const YamlMap root(node, {"name", "frame_id", "end", "uavs", "obstacles", "map", "workspace", "overrides"});
+  Scenario scenario;
+  root.read("name", scenario.name);
+  if (root.read("frame_id", scenario.frame_id) && !isFrameName(scenario.frame_id)) {
+    root.find("frame_id")->unexpected("a tf2 frame: no leading slash, no white space");
+  }
+  if (const YamlNode* end = root.require("end", "one of target_x, duration, all_at_goal")) readEnd(*end, scenario.end);
+  readUavs(root, scenario.end.target_x, scenario.uavs);
+  if (const YamlNode* obstacles = root.find("obstacles")) readObstacles(*obstacles, scenario.obstacles);
+  if (const YamlNode* map = root.find("map")) readMap(*map);
+  if (const YamlNode* workspace = root.find("workspace")) readWorkspace(*workspace, scenario.workspace);
+  if (const YamlNode* overrides = root.find("overrides")) readOverrides(*overrides, scenario.overrides);
+  return scenario;
+}
+
+}  // namespace
+
+Scenario parseScenarioText(const std::string& yaml, const std::string& source, Faults& faults) {
+  const YamlSource yaml_source{source, faults};
+  const std::optional<YamlNode> root = YamlNode::parse(yaml, yaml_source);
+  return root ? readScenario(*root) : Scenario();
+}
+
+Scenario parseScenarioFile(const std::string& path, Faults& faults) {
+  const YamlSource yaml_source{path, faults};
+  const std::optional<YamlNode> root = YamlNode::load(yaml_source);
+  return root ? readScenario(*root) : Scenario();
+}
+
+}  // namespace swarm_planner
