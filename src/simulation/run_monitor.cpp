@@ -45,7 +45,7 @@ void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std
   }
   progress_.observe(t, positions_, velocities_);
   watchWorkspace();
-  integrateCost(uavs);
+  integrateCost(uavs, obstacles);
   if (!ended_) ended_ = endConditionHolds();
 }
 
@@ -58,11 +58,12 @@ void RunMonitor::watchWorkspace() {
   }
 }
 
-void RunMonitor::integrateCost(const std::vector<UavSample>& uavs) {
+void RunMonitor::integrateCost(const std::vector<UavSample>& uavs, const std::vector<Superellipsoid>& obstacles) {
   double integrand = 0.0;
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     integrand +=
         trackingCost(uavs[i].p, uavs[i].v, uavs[i].jerk, progress_.foot(i), progress_.target(i), cost_.weights());
+    integrand += robustnessCost(uavs[i].p, obstacles, cost_.weights());
   }
   cost_.add(time_, integrand);
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <random>
 
+#include "swarm_planner/obstacles/robustness.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
 namespace swarm_planner {
@@ -321,6 +322,17 @@ TEST(RunMonitor, TheCostIsTheIntegralOfTheWeightedDeviations) {
   // The UAV's foot does not leave the path's beginning while x < 0; there the deviation along the path costs nothing.
   const double expected = 0.5 * 4.0 + 0.7 * 1.0 + 0.1 * (16.0 + 4.0 + 1.0 + 4.0 * 1.0) + 0.2 * 9.0;
   EXPECT_NEAR(monitor.summary().cost, 2.0 * expected, 1e-9);
+}
+
+TEST(RunMonitor, TheCostHoldsTheRobustnessFunctionNearObstacles) {
+  Mission mission = lasting(2.0, {uavOn(kAlongX, 0.0, 0.0)});
+  const Superellipsoid near = sphere(Vector3(4.0, 0.0, 0.0), 3.5), far = sphere(Vector3(400.0, 0.0, 0.0), 3.5);
+  const double without = watch(mission, {standing(Vector3::Zero())}, {far}).cost;
+  const double with = watch(mission, {standing(Vector3::Zero())}, {far, near}).cost;
+  const CostParameters& weights = mission.parameters.cost;
+  const double expected = robustness(near, Vector3::Zero(), RobustnessParameters(weights)).value;
+  EXPECT_GT(expected, 0.1);
+  EXPECT_NEAR(with - without, 2.0 * expected, 1e-9);
 }
 
 TEST(RunMonitor, AWrongNumberOfVehiclesIsRefused) {

@@ -9,11 +9,14 @@
 
 namespace swarm_planner {
 
-/// The integrand F of (16) for one UAV on a polyline: with the foot f of the UAV on its reference, the tangent t there,
-/// h = e3 x t normalised (e2 if the path is vertical) and b = t x h,
+/// The integrand F of (16) for one UAV on a polyline, without the robustness function: with the foot f of the UAV on
+/// its reference and the directions h, b across the path there (problem/tracking_cost.hpp),
 ///   alpha (h . (p - f))^2 + beta (b . (p - f))^2 + eta (|p - p_m|^2 + velocity_time^2 |v - v_m|^2) + zeta |jerk|^2.
 double trackingCost(const Vector3& p, const Vector3& v, const Vector3& jerk, const PathPoint& foot,
                     const TargetState& target, const CostParameters& weights);
+
+/// The robustness function (8) at `p`, without its constant -1.
+double robustnessCost(const Vector3& p, const std::vector<Superellipsoid>& obstacles, const CostParameters& weights);
 
 /// Integrates (15), the swarm's cost along the motion that was flown, by the trapezoidal rule.
 class ClosedLoopCost {

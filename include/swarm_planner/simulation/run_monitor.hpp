@@ -73,7 +73,7 @@ class RunMonitor {
 
  private:
   void watchWorkspace();
-  void integrateCost(const std::vector<UavSample>& uavs);
+  void integrateCost(const std::vector<UavSample>& uavs, const std::vector<Superellipsoid>& obstacles);
   bool endConditionHolds();
 
   Scenario scenario_;
