@@ -10,18 +10,18 @@ namespace swarm_planner {
 /// The quadrotor, Table 1 of the paper (its labels of k and b are swapped there: hover takes about
 /// 620 rad/s with the values below).
 struct VehicleParameters {
-  double mass = 0.468;                  ///< M [kg]
-  double gravity = 9.81;                ///< g [m/s^2]
-  double arm_length = 0.255;            ///< L, half the distance of two opposite rotors [m]
-  double drag_x = 0.25;                 ///< k_dx [N s/m]
-  double drag_y = 0.25;                 ///< k_dy [N s/m]
-  double drag_z = 0.25;                 ///< k_dz [N s/m]
-  double force_constant = 2.98e-6;      ///< k [N s^2/rad^2]
-  double rotor_drag_constant = 1.14e-7; ///< b [N m s^2/rad^2]
-  double inertia_x = 4.856e-3;          ///< I_x [kg m^2]
-  double inertia_y = 4.856e-3;          ///< I_y [kg m^2]
-  double inertia_z = 8.801e-3;          ///< I_z [kg m^2]
-  double max_rotor_speed = 1000.0;      ///< saturation of each rotor [rad/s]
+  double mass = 0.468;                   ///< M [kg]
+  double gravity = 9.81;                 ///< g [m/s^2]
+  double arm_length = 0.255;             ///< L, half the distance of two opposite rotors [m]
+  double drag_x = 0.25;                  ///< k_dx [N s/m]
+  double drag_y = 0.25;                  ///< k_dy [N s/m]
+  double drag_z = 0.25;                  ///< k_dz [N s/m]
+  double force_constant = 2.98e-6;       ///< k [N s^2/rad^2]
+  double rotor_drag_constant = 1.14e-7;  ///< b [N m s^2/rad^2]
+  double inertia_x = 4.856e-3;           ///< I_x [kg m^2]
+  double inertia_y = 4.856e-3;           ///< I_y [kg m^2]
+  double inertia_z = 8.801e-3;           ///< I_z [kg m^2]
+  double max_rotor_speed = 1000.0;       ///< saturation of each rotor [rad/s]
 
   /// Drag over mass per axis [1/s]: k_d / M of (3).
   Vector3 dragOverMass() const { return Vector3(drag_x, drag_y, drag_z) / mass; }
@@ -29,15 +29,15 @@ struct VehicleParameters {
 
 /// Hard limits of flight and the distances to keep.
 struct LimitParameters {
-  double max_speed = 5.0;                                         ///< Euclidean norm [m/s]
+  double max_speed = 5.0;                                             ///< Euclidean norm [m/s]
   double max_acceleration = std::numeric_limits<double>::infinity();  ///< Euclidean norm [m/s^2]
-  double max_thrust_ratio = 2.0;       ///< T_max / (M g) of (6)
-  double min_thrust_ratio = 0.2;       ///< least (A_z + g) / g, keeps the vehicle upright
-  double uav_radius = 0.3;             ///< least distance of a UAV's centre to an obstacle's surface [m]
-  double pair_distance = 2.0;          ///< R_CA of (14), horizontal [m]
-  double pair_distance_vertical = 2.0; ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
-  double tracking_margin = 0.2;        ///< kept on top of both distances by the planner [m]; unset: by rule
-  bool avoidance = true;               ///< false only for negative controls: no obstacle or pair constraint
+  double max_thrust_ratio = 2.0;                                      ///< T_max / (M g) of (6)
+  double min_thrust_ratio = 0.2;        ///< least (A_z + g) / g, keeps the vehicle upright
+  double uav_radius = 0.3;              ///< least distance of a UAV's centre to an obstacle's surface [m]
+  double pair_distance = 2.0;           ///< R_CA of (14), horizontal [m]
+  double pair_distance_vertical = 2.0;  ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
+  double tracking_margin = 0.2;         ///< kept on top of both distances by the planner [m]; unset: by rule
+  bool avoidance = true;                ///< false only for negative controls: no obstacle or pair constraint
 };
 
 /// Sampling of the horizon and the cycle.
@@ -61,9 +61,9 @@ struct CostParameters {
 
 /// Sequential quadratic programming and penalties of violated constraints.
 struct SqpParameters {
-  int max_iterations = 5;        ///< most QPs per UAV and cycle
-  double step_tolerance = 0.01;  ///< converged when no knot moves by more [m]
-  double slack_linear = 200.0;   ///< L1 penalty per metre of violation
+  int max_iterations = 5;          ///< most QPs per UAV and cycle
+  double step_tolerance = 0.01;    ///< converged when no knot moves by more [m]
+  double slack_linear = 200.0;     ///< L1 penalty per metre of violation
   double slack_quadratic = 200.0;  ///< quadratic penalty per square metre of violation
 };
 

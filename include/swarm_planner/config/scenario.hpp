@@ -28,11 +28,11 @@ struct ScenarioUav {
 /// One superellipsoid obstacle with constant velocity, eq. (7) and (19).
 struct ScenarioObstacle {
   int id = 0;
-  Vector3 center = Vector3::Zero();      ///< at t = 0 [m]
-  Vector3 radii = Vector3::Ones();       ///< a, b, c of (7) [m], > 0
+  Vector3 center = Vector3::Zero();            ///< at t = 0 [m]
+  Vector3 radii = Vector3::Ones();             ///< a, b, c of (7) [m], > 0
   Vector3 exponents = Vector3::Constant(2.0);  ///< p_x, p_y, p_z of (7), >= 2
-  Vector3 velocity = Vector3::Zero();    ///< [m/s]
-  double yaw = 0.0;                      ///< about the z axis [rad]
+  Vector3 velocity = Vector3::Zero();          ///< [m/s]
+  double yaw = 0.0;                            ///< about the z axis [rad]
 };
 
 /// Axis-aligned box that positions must stay in [m].
@@ -69,5 +69,9 @@ Scenario parseScenarioFile(const std::string& path, Faults& faults);
 
 /// The same from YAML text; `source` names it in faults.
 Scenario parseScenarioText(const std::string& yaml, const std::string& source, Faults& faults);
+
+/// The scenario as the text of a scenario file. Parsing it gives back exactly the same numbers, and the same
+/// scenario always gives the same text.
+std::string toYaml(const Scenario& scenario);
 
 }  // namespace swarm_planner
