@@ -1,0 +1,89 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "swarm_planner/obstacles/superellipsoid.hpp"
+#include "swarm_planner/problem/segment.hpp"
+
+namespace swarm_planner {
+
+/// n . r >= offset for a position r relative to a body's reference point [m].
+struct HalfSpace {
+  Vector3 n = Vector3::UnitZ();
+  double offset = 0.0;
+
+  /// Positive inside the half-space; a lower bound of the distance to what it keeps clear of.
+  double clearance(const Vector3& r) const { return n.dot(r) - offset; }
+};
+
+/// Something that a UAV keeps clear of over its horizon: an obstacle, eq. (7), or another UAV's plan, eq. (14).
+/// Both are a convex set about a reference point that moves along known control points.
+class MovingBody {
+ public:
+  /// An obstacle, given where it is at the horizon's start; `distance` [m] is to be kept from its surface
+  /// S = `level` (e^eps_s). The obstacle must outlive the body.
+  static MovingBody fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance);
+  /// Another UAV; the pair ellipsoid has the semi-axes `horizontal` and `vertical` [m]. `apart`: unit vector along
+  /// which the two part where they coincide, opposite for the two of a pair. The motion must outlive the body.
+  static MovingBody fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart);
+
+  /// Gives way where the horizon's start at `r` is closer than the distance to keep: up to `margin` [m] of the
+  /// distance is waived at first and demanded again within kReliefStages stages.
+  void relieve(const Vector3& r, double margin);
+  /// What is waived on segment k [m].
+  double relief(int k) const { return k < kReliefStages ? relief_ * (kReliefStages - k) / kReliefStages : 0.0; }
+
+  bool isUav() const { return motion_ != nullptr; }
+  const Superellipsoid* obstacle() const { return obstacle_; }
+
+  /// Bernstein control point i = 0..3 of the reference point's motion over segment k [m].
+  Vector3 point(int k, int i) const {
+    return motion_ != nullptr ? motion_->point(k, i) : obstacle_->center() + (k + i / 3.0) * step_;
+  }
+
+  /// A half-space whose boundary supports the set, grown by the distance to keep, towards `r`. Whatever lies in
+  /// it is clear of the body.
+  HalfSpace supportingHalfSpace(const Vector3& r) const;
+
+  /// Contains everything that must be kept clear of over the whole horizon [m].
+  const Box& box() const { return box_; }
+  /// Radius about the reference point that contains what must be kept clear of [m].
+  double radius() const { return radius_; }
+  /// The distance to keep, without the body's own size [m].
+  double distance() const { return distance_; }
+
+ private:
+  static constexpr int kReliefStages = 5;
+
+  const Superellipsoid* obstacle_ = nullptr;
+  const PredictedMotion* motion_ = nullptr;
+  Vector3 step_ = Vector3::Zero();  ///< of an obstacle's centre per stage [m]
+  double level_ = 1.0;
+  double distance_ = 0.0;
+  double vertical_scale_ = 1.0;  ///< horizontal over vertical semi-axis
+  double radius_ = 0.0;
+  double relief_ = 0.0;
+  Vector3 apart_ = Vector3::UnitX();
+  Box box_;
+};
+
+/// A segment's control points relative to a body's reference point [m].
+SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points);
+
+/// The relative position at the middle of a segment [m].
+Vector3 midpoint(const SegmentPoints& relative);
+
+/// True if the whole segment is certainly farther than `distance` from the reference point.
+inline bool isBeyond(const SegmentPoints& relative, double distance) {
+  Box box;
+  for (const Vector3& r : relative) box.include(r);
+  return box.min.cwiseMax(-box.max).cwiseMax(0.0).squaredNorm() > distance * distance;
+}
+
+/// How segment k lies to a body: the half-space, less what is waived, towards its middle and the least clearance of its control points.
+struct SegmentClearance {
+  HalfSpace half_space;
+  double clearance = 0.0;  ///< lower bound over the whole segment [m], negative if violated
+};
+SegmentClearance segmentClearance(const MovingBody& body, int k, const SegmentPoints& relative);
+
+}  // namespace swarm_planner

@@ -1,0 +1,51 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+
+#include "swarm_planner/model/trajectory.hpp"
+
+namespace swarm_planner {
+
+/// Bernstein control points of the positions of one segment of constant jerk: the segment lies in their
+/// convex hull.
+using SegmentPoints = std::array<Vector3, 4>;
+
+/// Control points of the segment between two consecutive knots, `dt` [s] apart.
+inline SegmentPoints segmentPoints(const KinematicState& begin, const KinematicState& end, double dt) {
+  return {begin.p, begin.p + dt / 3.0 * begin.v, begin.p + 2.0 * dt / 3.0 * begin.v + dt * dt / 6.0 * begin.a, end.p};
+}
+
+/// Axis-aligned box [m].
+struct Box {
+  Vector3 min = Vector3::Constant(1e300);
+  Vector3 max = Vector3::Constant(-1e300);
+
+  void include(const Vector3& point) {
+    min = min.cwiseMin(point);
+    max = max.cwiseMax(point);
+  }
+  /// True if some point of this box lies within `distance` of `other` along every axis.
+  bool near(const Box& other, double distance) const {
+    return (min.array() - distance <= other.max.array()).all() && (other.min.array() - distance <= max.array()).all();
+  }
+};
+
+/// Motion of a UAV that others plan around: control points on the common stage grid; segment k holds points 3k..3k+3.
+struct PredictedMotion {
+  std::array<Vector3, 3 * kHorizon + 1> points;
+  Box box;  ///< of all points
+
+  /// Control point i = 0..3 of segment k.
+  const Vector3& point(int k, int i) const { return points[static_cast<std::size_t>(3 * k + i)]; }
+};
+
+/// Predicts a plan on the stages of a horizon that starts at `epoch` with step `dt` [s]. Where the plan's knots
+/// coincide with the stages this is exact; elsewhere a cubic Hermite fit through the stages, off by at most
+/// jerk change * dt^3 / 192.
+void predict(const Trajectory& plan, double epoch, double dt, PredictedMotion& motion);
+
+/// Prediction of a UAV that has no plan: it rests at `position`.
+void predictResting(const Vector3& position, PredictedMotion& motion);
+
+}  // namespace swarm_planner

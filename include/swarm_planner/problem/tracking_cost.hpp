@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+
+#include "swarm_planner/problem/uav_problem.hpp"
+
+namespace swarm_planner {
+
+/// What cost (16) is measured against at one stage: the foot on the reference and the directions across it.
+struct StageFrame {
+  PathPoint foot;
+  Vector3 horizontal = Vector3::UnitY();  ///< h = e3 x t normalised (e2 if the path is vertical)
+  Vector3 vertical = Vector3::UnitZ();    ///< b = t x h
+};
+using StageFrames = std::array<StageFrame, kHorizon + 1>;
+
+StageFrame makeStageFrame(const PathPoint& foot);
+
+/// The frames of stages 1..N for a plan: each foot near the one before, so that it cannot jump where a path
+/// crosses itself; stage 0 holds the start's.
+void findStageFrames(const UavProblem& problem, const Trajectory& plan, StageFrames& frames);
+
+/// Cost of one stage's state and its derivatives: the integrand of (17) without the jerk term, times dt.
+struct StageCost {
+  double value = 0.0;
+  Vector3 position_gradient = Vector3::Zero();
+  Vector3 velocity_gradient = Vector3::Zero();
+  Matrix3 position_hessian = Matrix3::Zero();  ///< robustness term projected to positive semi-definite
+};
+StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x);
+
+/// Weight of 1/2 |v|^2 and of 1/2 |jerk|^2 in the sum over the stages.
+double velocityWeight(const UavProblem& problem);
+double jerkWeight(const UavProblem& problem);
+
+/// Cost (17) of a plan, summed over the stages times dt; the constant -1 of (8) is left out.
+double planCost(const UavProblem& problem, const Trajectory& plan);
+
+}  // namespace swarm_planner

@@ -1,0 +1,70 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/problem/moving_body.hpp"
+#include "swarm_planner/problem/reference_path.hpp"
+
+namespace swarm_planner {
+
+/// Bounds that every stage of a plan keeps, besides the bodies around it.
+struct FlightBounds {
+  double max_speed = 0.0;                ///< |v| [m/s]
+  double max_acceleration = 0.0;         ///< |a| [m/s^2], may be infinite
+  double max_thrust_acceleration = 0.0;  ///< |A + g e3|, T_max / M of (6) [m/s^2]
+  double min_vertical_thrust = 0.0;      ///< A_z, so that A_z + g >= min_thrust_ratio g [m/s^2]
+  Vector3 drag_over_mass = Vector3::Zero();  ///< of A = a + k_d / M v, eq. (3) [1/s]
+  Vector3 gravity = Vector3::Zero();     ///< g e3 [m/s^2]
+  Workspace workspace;                   ///< infinite where the scenario has none
+
+  FlightBounds() = default;
+  FlightBounds(const Parameters& parameters, const Workspace* scenario_workspace);
+};
+
+/// The nonlinear program of one UAV, Problem (18): cost (17) over the horizon subject to the jerk-input model (2),
+/// obstacles (7), other UAVs (14), thrust (6), speed, acceleration and workspace, the other UAVs' plans held fixed.
+struct UavProblem {
+  const Parameters* parameters = nullptr;
+  const ReferencePath* path = nullptr;
+  FlightBounds bounds;
+  double progress = 0.0;   ///< arc length near which the start's foot on the path lies [m]
+  KinematicState start;    ///< at the epoch
+  double epoch = 0.0;      ///< [s]
+  double dt = 0.0;         ///< [s]
+  std::array<TargetState, kHorizon + 1> targets;  ///< of each stage
+  std::vector<MovingBody> bodies;                 ///< whatever can be reached within the horizon
+};
+
+/// How far a plan violates the constraints.
+struct Violation {
+  double linear = 0.0;     ///< sum over all constraints [m, m/s, m/s^2]
+  double quadratic = 0.0;  ///< sum of squares
+  double largest = 0.0;
+
+  void add(double clearance) {
+    if (clearance >= 0.0) return;
+    linear -= clearance;
+    quadratic += clearance * clearance;
+    if (-clearance > largest) largest = -clearance;
+  }
+};
+
+/// Violation of the bounds and of the distances to all bodies by a plan: states at the knots, positions and
+/// velocities at the Bernstein control points between them, so that nothing happens between the samples unseen.
+Violation planViolation(const UavProblem& problem, const Trajectory& plan);
+
+/// The exact penalty function that every step has to decrease: cost (17) plus the L1 and quadratic penalties.
+double merit(const UavProblem& problem, const Trajectory& plan);
+
+/// Smallest clearances that a plan predicts at its knots: lower bounds that are exact for spheres.
+struct PredictedClearance {
+  double obstacle = 0.0;  ///< surface distance minus uav_radius [m], infinite without obstacle in reach
+  double pair = 0.0;      ///< centre distance [m], infinite without UAV in reach
+};
+PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan);
+
+}  // namespace swarm_planner

@@ -1,0 +1,73 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/problem/moving_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarm_planner {
+
+MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance) {
+  MovingBody body;
+  body.obstacle_ = &obstacle;
+  body.step_ = dt * obstacle.velocity();
+  body.level_ = level;
+  body.distance_ = distance;
+  // S(u) = level lies within the surface S = 1 stretched by the largest factor that an exponent of at least 2 gives.
+  const double stretch = std::sqrt(level);
+  body.radius_ = stretch * obstacle.boundingRadius() + distance;
+  const Vector3 extent = stretch * obstacle.halfExtents() + Vector3::Constant(distance);
+  const Vector3 end = obstacle.center() + kHorizon * body.step_;
+  body.box_.min = obstacle.center().cwiseMin(end) - extent;
+  body.box_.max = obstacle.center().cwiseMax(end) + extent;
+  return body;
+}
+
+MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal, double vertical,
+                               const Vector3& apart) {
+  MovingBody body;
+  body.motion_ = &motion;
+  body.distance_ = horizontal;
+  body.vertical_scale_ = horizontal / vertical;
+  body.apart_ = apart;
+  body.radius_ = std::max(horizontal, vertical);
+  const Vector3 extent(horizontal, horizontal, vertical);
+  body.box_.min = motion.box.min - extent;
+  body.box_.max = motion.box.max + extent;
+  return body;
+}
+
+HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
+  if (motion_ != nullptr) {
+    // In coordinates stretched along z the ellipsoid is a ball.
+    const Vector3 stretched(r.x(), r.y(), vertical_scale_ * r.z());
+    const double length = stretched.norm();
+    const Vector3 direction = length > 1e-9 ? Vector3(stretched / length) : apart_;
+    return {Vector3(direction.x(), direction.y(), vertical_scale_ * direction.z()), distance_};
+  }
+  const Gauge gauge = obstacle_->gauge(r, level_);
+  const double steepness = gauge.gradient.norm();
+  return {gauge.gradient / steepness, 1.0 / steepness + distance_};
+}
+
+void MovingBody::relieve(const Vector3& r, double margin) {
+  relief_ = std::clamp(-supportingHalfSpace(r).clearance(r), 0.0, margin);
+}
+
+SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points) {
+  SegmentPoints relative;
+  for (int i = 0; i < 4; ++i) relative[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)] - body.point(k, i);
+  return relative;
+}
+
+Vector3 midpoint(const SegmentPoints& r) { return 0.125 * (r[0] + r[3]) + 0.375 * (r[1] + r[2]); }
+
+SegmentClearance segmentClearance(const MovingBody& body, int k, const SegmentPoints& relative) {
+  SegmentClearance result;
+  result.half_space = body.supportingHalfSpace(midpoint(relative));
+  result.half_space.offset -= body.relief(k);
+  result.clearance = result.half_space.clearance(relative[0]);
+  for (std::size_t i = 1; i < 4; ++i) result.clearance = std::min(result.clearance, result.half_space.clearance(relative[i]));
+  return result;
+}
+
+}  // namespace swarm_planner

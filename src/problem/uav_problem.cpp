@@ -1,0 +1,109 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/problem/uav_problem.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "swarm_planner/problem/tracking_cost.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Box planBox(const Trajectory& plan) {
+  Box box;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    for (const Vector3& point : segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt)) box.include(point);
+  }
+  return box;
+}
+
+void addBoundViolations(const FlightBounds& bounds, const KinematicState& x, double dt, Violation& violation) {
+  violation.add(bounds.max_speed - x.v.norm());
+  violation.add(bounds.max_speed - (x.v + 0.5 * dt * x.a).norm());
+  violation.add(bounds.max_acceleration - x.a.norm());
+  const Vector3 thrust = x.a + bounds.drag_over_mass.cwiseProduct(x.v);
+  violation.add(bounds.max_thrust_acceleration - (thrust + bounds.gravity).norm());
+  violation.add(thrust.z() - bounds.min_vertical_thrust);
+}
+
+void addWorkspaceViolations(const Workspace& workspace, const SegmentPoints& points, Violation& violation) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      violation.add(points[i][axis] - workspace.min[axis]);
+      violation.add(workspace.max[axis] - points[i][axis]);
+    }
+  }
+}
+
+void addBodyViolations(const MovingBody& body, const Trajectory& plan, Violation& violation) {
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const SegmentPoints relative = relativePoints(body, k, segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt));
+    if (isBeyond(relative, body.radius())) continue;
+    const SegmentClearance segment = segmentClearance(body, k, relative);
+    if (segment.clearance >= 0.0) continue;
+    for (const Vector3& r : relative) violation.add(segment.half_space.clearance(r));
+  }
+}
+
+}  // namespace
+
+FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenario_workspace) {
+  const LimitParameters& limits = parameters.limits;
+  const VehicleParameters& vehicle = parameters.vehicle;
+  max_speed = limits.max_speed;
+  max_acceleration = limits.max_acceleration;
+  max_thrust_acceleration = limits.max_thrust_ratio * vehicle.gravity;
+  min_vertical_thrust = (limits.min_thrust_ratio - 1.0) * vehicle.gravity;
+  drag_over_mass = vehicle.dragOverMass();
+  gravity = vehicle.gravity * upward();
+  workspace.min = Vector3::Constant(-kInfinity);
+  workspace.max = Vector3::Constant(kInfinity);
+  if (scenario_workspace == nullptr) return;
+  const Vector3 margin = Vector3::Constant(limits.tracking_margin);
+  workspace.min = scenario_workspace->min + margin;
+  workspace.max = scenario_workspace->max - margin;
+}
+
+Violation planViolation(const UavProblem& problem, const Trajectory& plan) {
+  Violation violation;
+  const bool bounded = problem.bounds.workspace.max.allFinite();
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    addBoundViolations(problem.bounds, plan.knots[k + 1], plan.dt, violation);
+    if (!bounded) continue;
+    addWorkspaceViolations(problem.bounds.workspace, segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt), violation);
+  }
+  const Box box = planBox(plan);
+  for (const MovingBody& body : problem.bodies) {
+    if (body.box().near(box, 0.0)) addBodyViolations(body, plan, violation);
+  }
+  return violation;
+}
+
+double merit(const UavProblem& problem, const Trajectory& plan) {
+  const Violation violation = planViolation(problem, plan);
+  const SqpParameters& sqp = problem.parameters->sqp;
+  return planCost(problem, plan) + sqp.slack_linear * violation.linear +
+         0.5 * sqp.slack_quadratic * violation.quadratic;
+}
+
+PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {
+  PredictedClearance least{kInfinity, kInfinity};
+  for (const MovingBody& body : problem.bodies) {
+    for (int k = 0; k <= kHorizon; ++k) {
+      const Vector3 reference = k < kHorizon ? body.point(k, 0) : body.point(kHorizon - 1, 3);
+      const Vector3 r = plan.knots[static_cast<std::size_t>(k)].p - reference;
+      if (body.isUav()) {
+        least.pair = std::min(least.pair, r.norm());
+      } else if (r.norm() - body.radius() < least.obstacle) {
+        const double kept = body.distance() - problem.parameters->limits.uav_radius;
+        least.obstacle = std::min(least.obstacle, body.supportingHalfSpace(r).clearance(r) + kept);
+      }
+    }
+  }
+  return least;
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,144 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/sqp/linearisation.hpp"
+
+#include <array>
+#include <optional>
+
+#include "swarm_planner/problem/passing_side.hpp"
+#include "swarm_planner/problem/tracking_cost.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kNormBand = 0.6;        // of a norm limit, below which the iterate gets no tangent plane
+constexpr double kReachableSpeed = 0.7;  // of max_speed, sideways, when judging whether a way out can be reached
+
+/// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
+void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d) {
+  if (i == 3) {
+    qp.addRow(k + 1, Output::kPosition, n, d);
+  } else if (k > 0) {
+    constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
+    qp.addRow(k, kOutputs[static_cast<std::size_t>(i)], n, d);
+  }
+}
+
+void addTangent(Qp& qp, int stage, Output output, const Vector3& value, const Vector3& centre, double limit) {
+  const Vector3 outward = value + centre;
+  const double norm = outward.norm();
+  if (!(norm > kNormBand * limit)) return;
+  const Vector3 n = -outward / norm;
+  qp.addRow(stage, output, n, -limit - n.dot(centre));
+}
+
+void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage, double dt, Qp& qp) {
+  const Vector3 none = Vector3::Zero();
+  addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed);
+  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * dt * x.a, none, bounds.max_speed);
+  addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration);
+  const Vector3 thrust = x.a + bounds.drag_over_mass.cwiseProduct(x.v);
+  addTangent(qp, stage, Output::kThrustAcceleration, thrust, bounds.gravity, bounds.max_thrust_acceleration);
+  if (thrust.z() < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
+    qp.addRow(stage, Output::kThrustAcceleration, upward(), bounds.min_vertical_thrust);
+  }
+}
+
+void addWorkspaceRows(const Workspace& workspace, int k, const SegmentPoints& points, double band, Qp& qp) {
+  for (int i = 1; i < 4; ++i) {
+    const Vector3& point = points[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 n = Vector3::Unit(axis);
+      if (point[axis] - workspace.min[axis] < band) addControlPointRow(qp, k, i, n, workspace.min[axis]);
+      if (workspace.max[axis] - point[axis] < band) addControlPointRow(qp, k, i, -n, -workspace.max[axis]);
+    }
+  }
+}
+
+/// The segments of an iterate as one body sees them.
+struct Passage {
+  std::array<SegmentPoints, kHorizon> relative;
+  std::array<std::optional<SegmentClearance>, kHorizon> near;  ///< set where the segment lies within the band
+  int deepest = -1;                                             ///< segment that violates the distance most
+};
+
+void findPassage(const MovingBody& body, const Trajectory& iterate, double band, Passage& passage) {
+  double least = 0.0;
+  passage.deepest = -1;
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    passage.relative[i] = relativePoints(body, k, segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt));
+    passage.near[i].reset();
+    if (isBeyond(passage.relative[i], body.radius() + band)) continue;
+    const SegmentClearance segment = segmentClearance(body, k, passage.relative[i]);
+    if (segment.clearance > band) continue;
+    passage.near[i] = segment;
+    if (segment.clearance >= least) continue;
+    least = segment.clearance;
+    passage.deepest = k;
+  }
+}
+
+void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band, Qp& qp) {
+  Passage passage;
+  findPassage(body, iterate, band, passage);
+  std::optional<PassingSide> side;
+  if (passage.deepest > 0) {
+    const auto i = static_cast<std::size_t>(passage.deepest);
+    const double time = passage.deepest * iterate.dt;
+    side = PassingSide::choose(body, passage.relative[i], midpoint(passage.relative[i]) + body.point(passage.deepest, 0),
+                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+  }
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!passage.near[i]) continue;
+    HalfSpace half_space = passage.near[i]->half_space;
+    if (side && passage.near[i]->clearance < 0.0) half_space = side->halfSpace(body, midpoint(passage.relative[i]));
+    for (int j = 0; j < 4; ++j) {
+      addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)));
+    }
+  }
+}
+
+void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
+  StageFrames frames;
+  findStageFrames(problem, iterate, frames);
+  for (int k = 1; k <= kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const KinematicState& x = iterate.knots[i];
+    const StageCost cost = stageCost(problem, k, frames[i], x);
+    QpStage& stage = qp.stages[i];
+    stage.position_hessian = cost.position_hessian;
+    stage.position_gradient = cost.position_gradient - cost.position_hessian * x.p;
+    stage.velocity_gradient = cost.velocity_gradient - velocityWeight(problem) * x.v;
+  }
+}
+
+}  // namespace
+
+void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp) {
+  const SqpParameters& sqp = problem.parameters->sqp;
+  qp.start = problem.start;
+  qp.dt = problem.dt;
+  qp.velocity_weight = velocityWeight(problem);
+  qp.jerk_weight = jerkWeight(problem);
+  qp.slack_linear = sqp.slack_linear;
+  qp.slack_quadratic = sqp.slack_quadratic;
+  qp.outputs = makeOutputGains(problem.dt, problem.bounds.drag_over_mass);
+  setCost(problem, iterate, qp);
+
+  qp.clearRows();
+  Box box;
+  const bool bounded = problem.bounds.workspace.max.allFinite();
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const SegmentPoints points = segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt);
+    for (const Vector3& point : points) box.include(point);
+    addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, iterate.dt, qp);
+    if (bounded) addWorkspaceRows(problem.bounds.workspace, k, points, band, qp);
+  }
+  for (const MovingBody& body : problem.bodies) {
+    if (body.box().near(box, band)) addBodyRows(problem, body, iterate, band, qp);
+  }
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,48 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
+namespace swarm_planner {
+
+const char* reasonText(Reason reason) {
+  switch (reason) {
+    case Reason::kNone:
+      return "";
+    case Reason::kWaitingForOdometry:
+      return "no odometry has arrived yet";
+    case Reason::kWaitingForOthers:
+      return "waiting for the odometry of other UAVs";
+    case Reason::kWaitingForStart:
+      return "waiting for the start command";
+    case Reason::kOdometryStale:
+      return "odometry is too old";
+    case Reason::kOdometryFromFuture:
+      return "odometry is stamped in the future";
+    case Reason::kOdometryNotFinite:
+      return "odometry is not finite";
+    case Reason::kConstraintsViolated:
+      return "no plan keeps all distances and limits; flying the least violating one";
+    case Reason::kSolverFailed:
+      return "the solver gave no plan; the last one goes on";
+  }
+  return "unknown reason";
+}
+
+const char* stateText(UavState state) {
+  switch (state) {
+    case UavState::kTracking:
+      return "tracking";
+    case UavState::kHolding:
+      return "holding";
+    case UavState::kFallback:
+      return "fallback";
+    case UavState::kLost:
+      return "lost";
+    case UavState::kLanding:
+      return "landing";
+    case UavState::kStopped:
+      return "stopped";
+  }
+  return "unknown state";
+}
+
+}  // namespace swarm_planner
