@@ -104,7 +104,7 @@ double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& e
     lambda *= ratio;
     dual = solveAxes(x, radii, exponents, lambda);
   }
-  return std::sqrt(std::max(0.0, dual.squared_distance + 2.0 * lambda * std::expm1(dual.log_sum)));
+  return std::sqrt(std::max(dual.squared_distance + 2.0 * lambda * std::expm1(dual.log_sum), 0.0));
 }
 
 }  // namespace swarm_planner
