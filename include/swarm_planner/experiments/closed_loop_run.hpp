@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "swarm_planner/experiments/cycle_planner.hpp"
+#include "swarm_planner/experiments/run_result.hpp"
+#include "swarm_planner/simulation/quad_simulator.hpp"
+#include "swarm_planner/simulation/run_monitor.hpp"
+
+namespace swarm_planner {
+
+/// Sees a run while it is flown: for recording and for showing progress. Times are relative to t = 0 of the run [s].
+class RunObserver {
+ public:
+  virtual ~RunObserver() = default;
+  /// Every kEvaluationPeriod: the vehicles, and the obstacles where they truly are, in the scenario's order.
+  virtual void onSample(double t, const std::vector<QuadSimulator>& vehicles,
+                        const std::vector<Superellipsoid>& obstacles) = 0;
+  /// After every cycle; `epoch` is that of the plans which it made.
+  virtual void onCycle(double epoch, const CycleReport& report) = 0;
+};
+
+/// One run: planner and simulated vehicles in closed loop, without ROS, timed as the ROS nodes are.
+///
+/// Every cycle_period the planner gets a snapshot of that instant (the vehicles' odometry with its noise, the obstacles
+/// where they are) and plans for the epoch one cycle_period later: what one cycle computes is flown from the next on.
+/// Plans reach the vehicles sampled at kSetpointPeriod. The first epoch is t = 0: obstacles are at their start and
+/// targets begin to move then; until then the vehicles hover.
+class ClosedLoopRun {
+ public:
+  /// Distances, collisions and so on are evaluated this often [s].
+  static constexpr double kEvaluationPeriod = 0.01;
+  /// Spacing of the setpoints that the vehicles receive [s].
+  static constexpr double kSetpointPeriod = 0.05;
+
+  /// `mission` and `planner` must outlive the run. `seed` is that of the sensor noise.
+  ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed);
+
+  /// Flies until the scenario's end condition holds. Call it once. `observers` are told in the order given.
+  RunResult fly(const std::vector<RunObserver*>& observers = {});
+
+ private:
+  void moveTo(double t);
+  void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
+  void record(const CycleReport& report);
+  void evaluate(double t, const std::vector<RunObserver*>& observers);
+  void summarise();
+
+  const Mission& mission_;
+  CyclePlanner& planner_;
+  std::vector<QuadSimulator> vehicles_;
+  std::vector<Superellipsoid> obstacles_at_start_;
+  std::vector<Superellipsoid> obstacles_;
+  RunMonitor monitor_;
+  Snapshot snapshot_;
+  SetpointTrajectory setpoints_;
+  std::vector<UavSample> samples_;
+
+  RunResult result_;
+  std::vector<double> cycle_ms_;
+  std::vector<double> uav_ms_;
+  std::vector<double> sqp_iterations_;
+  std::vector<double> qp_iterations_;
+};
+
+}  // namespace swarm_planner

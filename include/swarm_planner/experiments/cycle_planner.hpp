@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
+namespace swarm_planner {
+
+/// Whatever plans for a swarm once a cycle: the ways to do so are compared in the same closed loop.
+class CyclePlanner {
+ public:
+  virtual ~CyclePlanner() = default;
+
+  /// New plans that start at `epoch` >= snapshot.now. The report is valid until the next call.
+  virtual const CycleReport& plan(const Snapshot& snapshot, double epoch) = 0;
+  /// The newest plan of a UAV; meaningful where the report says `planned`.
+  virtual const Trajectory& committed(std::size_t uav) const = 0;
+};
+
+/// Problem 2: one UAV after the other.
+class IterativePlanner : public CyclePlanner {
+ public:
+  explicit IterativePlanner(const Mission& mission) : planner_(mission) {}
+
+  const CycleReport& plan(const Snapshot& snapshot, double epoch) override { return planner_.plan(snapshot, epoch); }
+  const Trajectory& committed(std::size_t uav) const override { return planner_.committed(uav); }
+
+ private:
+  SwarmPlanner planner_;
+};
+
+}  // namespace swarm_planner

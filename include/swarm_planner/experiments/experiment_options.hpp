@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace swarm_planner {
+
+/// The command line cannot be used; what() says what is wrong and what was expected.
+class OptionError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap };
+
+/// What swarm_experiment is asked to do.
+struct ExperimentOptions {
+  ExperimentCommand command = ExperimentCommand::kHelp;
+  std::vector<std::string> scenario_files;  ///< fly
+  std::vector<int> uavs;                    ///< the others; scaling: several
+  double radius = 10.0;                     ///< circle_swap [m]
+
+  /// A run for each: --seeds A:B (both ends included), --seed S, or 0; monte_carlo: as many from S on as scenarios.
+  /// Empty only for fly without either: then the parameter "seed" holds.
+  std::vector<std::uint64_t> seeds;
+  std::optional<double> noise;  ///< standard deviation of odometry [m] and [m/s]
+  bool avoidance = true;        ///< false: negative control
+  std::optional<std::string> parameter_file;
+  std::optional<std::string> json_file;
+  std::optional<std::string> csv_directory;
+};
+
+/// Reads the arguments after the program's name. Throws OptionError at the first that cannot be used.
+ExperimentOptions parseExperimentOptions(const std::vector<std::string>& arguments);
+
+/// The text of --help.
+std::string experimentUsage();
+
+}  // namespace swarm_planner

@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "swarm_planner/experiments/experiment_options.hpp"
+#include "swarm_planner/swarm/mission.hpp"
+
+namespace swarm_planner {
+
+/// One run of an experiment, ready to be flown.
+struct ExperimentRun {
+  Mission mission;
+  std::uint64_t seed = 0;
+};
+
+/// The runs that a command asks for, in the order in which they are reported. Throws ConfigError with the faults of all
+/// scenario and parameter files together.
+std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options);
+
+}  // namespace swarm_planner

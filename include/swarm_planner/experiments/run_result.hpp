@@ -1,0 +1,30 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "swarm_planner/experiments/statistics.hpp"
+#include "swarm_planner/simulation/run_monitor.hpp"
+
+namespace swarm_planner {
+
+/// Everything that is reported of one run; doc/experiments.md gives the meaning of every field.
+struct RunResult {
+  std::string scenario;
+  std::uint64_t seed = 0;
+  std::size_t uavs = 0;
+  std::size_t cycles = 0;
+  Distribution cycle_ms;                         ///< planning of the whole swarm, snapshot in to plans out [ms]
+  Distribution uav_ms;                           ///< planning of one UAV [ms]
+  MeanMax sqp_iterations;                        ///< per UAV and cycle
+  MeanMax qp_iterations;                         ///< per UAV and cycle, all QPs together
+  long long kkt_nonzeros = 0;                    ///< see kkt_nonzeros.hpp
+  RunSummary flown;                              ///< what the simulated vehicles did
+  std::size_t rejected_plans = 0;                ///< plans that the check refused
+  std::map<std::string, std::size_t> fallbacks;  ///< reason in words -> UAVs and cycles
+  std::size_t deadline_misses = 0;               ///< cycles that took longer than cycle_period
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,246 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/experiments/experiment_options.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace swarm_planner {
+namespace {
+
+constexpr int kMostUavs = 100000;
+constexpr std::uint64_t kMostScenarios = 1000000;
+constexpr std::uint64_t kLargestSeed = 2147483647;  // that of the parameter "seed", so that a run can be repeated there
+
+bool isOption(const std::string& argument) { return argument.rfind("--", 0) == 0; }
+
+std::uint64_t wholeNumber(const std::string& option, const std::string& text, std::uint64_t least, std::uint64_t most) {
+  std::uint64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (text.empty() || error != std::errc() || stop != end || number < least || number > most) {
+    throw OptionError(option + ": expected a whole number from " + std::to_string(least) + " to " +
+                      std::to_string(most) + ", not \"" + text + "\"");
+  }
+  return number;
+}
+
+double positiveNumber(const std::string& option, const std::string& text, bool zero_allowed) {
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  const bool read = static_cast<bool>(stream >> number) && stream.peek() == std::istringstream::traits_type::eof();
+  if (!read || !std::isfinite(number) || number < 0.0 || (number == 0.0 && !zero_allowed)) {
+    throw OptionError(option + ": expected a number " + (zero_allowed ? ">= 0" : "> 0") + ", not \"" + text + "\"");
+  }
+  return number;
+}
+
+std::vector<std::uint64_t> seedsFrom(std::uint64_t first, std::uint64_t count) {
+  std::vector<std::uint64_t> seeds(count);
+  std::iota(seeds.begin(), seeds.end(), first);
+  return seeds;
+}
+
+std::vector<std::uint64_t> seedRange(const std::string& option, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) throw OptionError(option + ": expected A:B, not \"" + text + "\"");
+  const std::uint64_t first = wholeNumber(option, text.substr(0, colon), 0, kLargestSeed);
+  const std::uint64_t last = wholeNumber(option, text.substr(colon + 1), first, kLargestSeed);
+  if (last - first >= kMostScenarios) throw OptionError(option + ": more than a million seeds");
+  return seedsFrom(first, last - first + 1);
+}
+
+const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCommand::kFly},
+                                                            {"monte_carlo", ExperimentCommand::kMonteCarlo},
+                                                            {"scaling", ExperimentCommand::kScaling},
+                                                            {"circle_swap", ExperimentCommand::kCircleSwap}};
+
+/// Walks through the arguments; what an option needs is taken from behind it.
+class Parser {
+ public:
+  explicit Parser(const std::vector<std::string>& arguments) : arguments_(splitEquals(arguments)) {}
+
+  ExperimentOptions parse();
+
+ private:
+  /// "--key=value" as "--key" "value".
+  static std::vector<std::string> splitEquals(const std::vector<std::string>& arguments);
+  bool atEnd() const { return next_ == arguments_.size(); }
+  std::string value(const std::string& option);
+  std::vector<std::string> values(const std::string& option);
+  void requireCommand(const std::string& option, std::initializer_list<ExperimentCommand> commands) const;
+  void readOption(const std::string& option);
+  void readStudyOption(const std::string& option);
+  void check();
+
+  std::vector<std::string> arguments_;
+  std::size_t next_ = 0;
+  std::vector<std::string> seen_;
+  std::uint64_t scenarios_ = 100;
+  ExperimentOptions options_;
+};
+
+ExperimentOptions Parser::parse() {
+  if (std::find(arguments_.begin(), arguments_.end(), "--help") != arguments_.end()) return options_;
+  if (atEnd()) throw OptionError("no command given");
+  const std::string command = arguments_[next_++];
+  const auto found = kCommands.find(command);
+  if (found == kCommands.end()) throw OptionError("unknown command \"" + command + "\"");
+  options_.command = found->second;
+  while (!atEnd()) {
+    const std::string argument = arguments_[next_++];
+    if (isOption(argument)) {
+      if (std::find(seen_.begin(), seen_.end(), argument) != seen_.end()) throw OptionError(argument + ": given twice");
+      seen_.push_back(argument);
+      readOption(argument);
+    } else if (options_.command == ExperimentCommand::kFly) {
+      options_.scenario_files.push_back(argument);
+    } else {
+      throw OptionError("unexpected argument \"" + argument + "\"");
+    }
+  }
+  check();
+  return options_;
+}
+
+std::vector<std::string> Parser::splitEquals(const std::vector<std::string>& arguments) {
+  std::vector<std::string> split;
+  for (const std::string& argument : arguments) {
+    const std::size_t equals = argument.find('=');
+    if (isOption(argument) && equals != std::string::npos) {
+      split.push_back(argument.substr(0, equals));
+      split.push_back(argument.substr(equals + 1));
+    } else {
+      split.push_back(argument);
+    }
+  }
+  return split;
+}
+
+std::string Parser::value(const std::string& option) {
+  if (atEnd() || isOption(arguments_[next_])) throw OptionError(option + ": a value is missing");
+  return arguments_[next_++];
+}
+
+std::vector<std::string> Parser::values(const std::string& option) {
+  std::vector<std::string> list = {value(option)};
+  while (!atEnd() && !isOption(arguments_[next_])) list.push_back(arguments_[next_++]);
+  return list;
+}
+
+void Parser::requireCommand(const std::string& option, std::initializer_list<ExperimentCommand> commands) const {
+  if (std::find(commands.begin(), commands.end(), options_.command) == commands.end()) {
+    throw OptionError(option + ": does not go with this command");
+  }
+}
+
+void Parser::readOption(const std::string& option) {
+  if (option == "--json") {
+    options_.json_file = value(option);
+  } else if (option == "--csv") {
+    options_.csv_directory = value(option);
+  } else if (option == "--params") {
+    options_.parameter_file = value(option);
+  } else if (option == "--seed") {
+    options_.seeds = {wholeNumber(option, value(option), 0, kLargestSeed)};
+  } else if (option == "--seeds") {
+    options_.seeds = seedRange(option, value(option));
+  } else if (option == "--noise") {
+    options_.noise = positiveNumber(option, value(option), true);
+  } else if (option == "--threads") {
+    if (value(option) != "1") throw OptionError("--threads: the planner runs on 1 thread so far");
+  } else if (option == "--without") {
+    const std::string what = value(option);
+    if (what != "avoidance")
+      throw OptionError("--without: only \"avoidance\" can be left out so far, not \"" + what + "\"");
+    options_.avoidance = false;
+  } else {
+    readStudyOption(option);
+  }
+}
+
+void Parser::readStudyOption(const std::string& option) {
+  static const std::vector<std::string> kNotYet = {"--joint", "--latency", "--drop",    "--jitter",
+                                                   "--bias",  "--wind",    "--as-paper"};
+  if (option == "--uavs") {
+    requireCommand(option,
+                   {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap});
+    for (const std::string& count : values(option)) {
+      options_.uavs.push_back(static_cast<int>(wholeNumber(option, count, 1, kMostUavs)));
+    }
+  } else if (option == "--scenarios") {
+    requireCommand(option, {ExperimentCommand::kMonteCarlo});
+    scenarios_ = wholeNumber(option, value(option), 1, kMostScenarios);
+  } else if (option == "--radius") {
+    requireCommand(option, {ExperimentCommand::kCircleSwap});
+    options_.radius = positiveNumber(option, value(option), false);
+  } else if (std::find(kNotYet.begin(), kNotYet.end(), option) != kNotYet.end()) {
+    throw OptionError(option + ": not supported yet");
+  } else {
+    throw OptionError("unknown option " + option);
+  }
+}
+
+/// What can be told only once all arguments are known; sets the defaults.
+void Parser::check() {
+  const auto given = [this](const char* option) {
+    return std::find(seen_.begin(), seen_.end(), option) != seen_.end();
+  };
+  if (given("--seed") && given("--seeds")) throw OptionError("--seed and --seeds: give one of them");
+  if (given("--scenarios") && given("--seeds")) throw OptionError("--scenarios and --seeds: give one of them");
+  if (options_.command == ExperimentCommand::kFly) {
+    if (options_.scenario_files.empty()) throw OptionError("fly: no scenario file given");
+    return;
+  }
+  if (options_.seeds.empty()) options_.seeds = {0};
+  if (options_.command == ExperimentCommand::kScaling) {
+    if (options_.uavs.empty()) options_.uavs = {6, 16, 32, 64};
+    return;
+  }
+  const bool monte_carlo = options_.command == ExperimentCommand::kMonteCarlo;
+  if (monte_carlo && !given("--seeds")) options_.seeds = seedsFrom(options_.seeds.front(), scenarios_);
+  if (options_.uavs.empty()) options_.uavs = {monte_carlo ? 6 : 10};
+  if (options_.uavs.size() > 1) throw OptionError("--uavs: one number is expected here");
+}
+
+}  // namespace
+
+ExperimentOptions parseExperimentOptions(const std::vector<std::string>& arguments) {
+  return Parser(arguments).parse();
+}
+
+std::string experimentUsage() {
+  return R"(usage: swarm_experiment COMMAND [options]
+
+Flies the swarm closed loop, planner and simulated vehicles, without ROS, and measures it.
+
+commands:
+  fly SCENARIO.yaml [SCENARIO.yaml ...]   the given scenario files
+  monte_carlo [--scenarios 100] [--uavs 6]
+                                          random obstacles as in section 4.1 of the paper
+  scaling [--uavs 6 16 32 64]             growing swarms as in section 4.2 of the paper
+  circle_swap [--uavs 10] [--radius 10]   UAVs on a circle [m] change places with their opposites
+
+options:
+  --json FILE          write the results as JSON
+  --csv DIR            write states.csv, obstacles.csv, cycles.csv and solves.csv
+  --seed S             seed of the sensor noise and of random scenarios (monte_carlo: of the first one)
+  --seeds A:B          a run for each seed from A to B
+  --noise SIGMA        standard deviation of odometry [m] and [m/s]
+  --without avoidance  negative control: plans ignore obstacles and other UAVs
+  --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
+  --threads 1          threads of the planner (one so far)
+  --help               this text
+
+Exit status: 0 flown, 1 faults in a file or results that cannot be written, 2 wrong command line.
+doc/experiments.md explains every field of the results.
+)";
+}
+
+}  // namespace swarm_planner

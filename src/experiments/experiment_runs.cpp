@@ -1,0 +1,75 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/experiments/experiment_runs.hpp"
+
+#include "swarm_planner/config/paper_scenarios.hpp"
+
+namespace swarm_planner {
+namespace {
+
+/// Parameters that the command line sets, on top of those of its parameter file.
+ParameterMap givenParameters(const ExperimentOptions& options) {
+  Faults faults;
+  ParameterMap given;
+  if (options.parameter_file) given = parseParameterFile(*options.parameter_file, false, faults);
+  faults.throwIfAny();
+  if (options.noise) {
+    given["position_noise"] = *options.noise;
+    given["velocity_noise"] = *options.noise;
+  }
+  if (!options.avoidance) given["avoidance"] = false;
+  return given;
+}
+
+std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const ParameterMap& given) {
+  std::vector<ExperimentRun> runs;
+  std::string faults;
+  for (const std::string& file : options.scenario_files) {
+    try {
+      const Mission mission = loadMission(file, given);
+      std::vector<std::uint64_t> seeds = options.seeds;
+      if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
+      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed});
+    } catch (const ConfigError& error) {
+      faults += faults.empty() ? "" : "\n";
+      faults += error.what();
+    }
+  }
+  if (!faults.empty()) throw ConfigError(faults);
+  return runs;
+}
+
+/// Scenarios that a generator makes; the command's name stands for the file in faults.
+ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
+  return {makeMission(scenario, given, scenario.name), seed};
+}
+
+}  // namespace
+
+std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) {
+  const ParameterMap given = givenParameters(options);
+  std::vector<ExperimentRun> runs;
+  switch (options.command) {
+    case ExperimentCommand::kFly:
+      return flyRuns(options, given);
+    case ExperimentCommand::kMonteCarlo:
+      for (const std::uint64_t seed : options.seeds) {
+        runs.push_back(generatedRun(paperMonteCarlo(options.uavs.front(), seed), seed, given));
+      }
+      break;
+    case ExperimentCommand::kScaling:
+      for (const int uavs : options.uavs) {
+        for (const std::uint64_t seed : options.seeds) runs.push_back(generatedRun(paperScaling(uavs), seed, given));
+      }
+      break;
+    case ExperimentCommand::kCircleSwap:
+      for (const std::uint64_t seed : options.seeds) {
+        runs.push_back(generatedRun(circleSwap(options.uavs.front(), options.radius, seed), seed, given));
+      }
+      break;
+    case ExperimentCommand::kHelp:
+      break;
+  }
+  return runs;
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,116 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/experiments/json_report.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <locale>
+#include <optional>
+#include <sstream>
+
+namespace swarm_planner {
+namespace {
+
+std::string jsonText(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      char code[8];
+      std::snprintf(code, sizeof(code), "\\u%04x", static_cast<unsigned>(c));
+      quoted += code;
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + '"';
+}
+
+/// An object whose members keep the order in which they are added.
+class JsonObject {
+ public:
+  JsonObject() {
+    members_.imbue(std::locale::classic());
+    members_.precision(12);
+  }
+
+  JsonObject& add(const std::string& key, const std::string& text) { return addRaw(key, jsonText(text)); }
+  JsonObject& add(const std::string& key, const JsonObject& object) { return addRaw(key, object.text()); }
+  /// null if empty; JSON knows neither NaN nor infinity: they are null, too.
+  JsonObject& add(const std::string& key, const std::optional<double>& number) {
+    addKey(key);
+    if (number && std::isfinite(*number)) {
+      members_ << *number;
+    } else {
+      members_ << "null";
+    }
+    return *this;
+  }
+  JsonObject& addCount(const std::string& key, unsigned long long count) { return addRaw(key, std::to_string(count)); }
+
+  std::string text() const { return "{" + members_.str() + "}"; }
+
+ private:
+  void addKey(const std::string& key) { members_ << (members_.tellp() > 0 ? ", " : "") << jsonText(key) << ": "; }
+  JsonObject& addRaw(const std::string& key, const std::string& value) {
+    addKey(key);
+    members_ << value;
+    return *this;
+  }
+
+  std::ostringstream members_;
+};
+
+JsonObject toObject(const Distribution& x) {
+  JsonObject object;
+  object.add("mean", x.mean).add("median", x.median).add("p99", x.p99).add("max", x.max);
+  return object;
+}
+
+JsonObject toObject(const MeanMax& x) {
+  JsonObject object;
+  object.add("mean", x.mean).add("max", x.max);
+  return object;
+}
+
+JsonObject toObject(const RunResult& run) {
+  JsonObject fallbacks;
+  for (const auto& [reason, count] : run.fallbacks) fallbacks.addCount(reason, count);
+  const RunSummary& flown = run.flown;
+  JsonObject object;
+  object.add("scenario", run.scenario)
+      .addCount("seed", run.seed)
+      .addCount("uavs", run.uavs)
+      .addCount("cycles", run.cycles)
+      .add("cycle_ms", toObject(run.cycle_ms))
+      .add("uav_ms", toObject(run.uav_ms))
+      .add("sqp_iterations", toObject(run.sqp_iterations))
+      .add("qp_iterations", toObject(run.qp_iterations))
+      .addCount("kkt_nonzeros", run.kkt_nonzeros)
+      .add("min_uav_distance_m", flown.min_uav_distance)
+      .add("min_obstacle_clearance_m", flown.min_obstacle_clearance)
+      .addCount("collisions", flown.collisions.size())
+      .add("final_lag_m", toObject(flown.final_lag))
+      .addCount("stuck_uavs", static_cast<unsigned>(flown.stuck_uavs))
+      .add("mission_time_s", flown.mission_time)
+      .add("path_length_m", flown.path_length)
+      .add("tracking_error_m", toObject(flown.tracking_error))
+      .addCount("arrived_uavs", static_cast<unsigned>(flown.arrived_uavs))
+      .addCount("rejected_plans", run.rejected_plans)
+      .addCount("workspace_violations", static_cast<unsigned>(flown.workspace_violations))
+      .add("fallbacks", fallbacks)
+      .addCount("deadline_misses", run.deadline_misses)
+      .add("cost", flown.cost);
+  return object;
+}
+
+}  // namespace
+
+std::string toJson(const std::vector<RunResult>& results) {
+  std::string json = "[";
+  for (const RunResult& run : results) json += (json.size() > 1 ? ",\n " : "\n ") + toObject(run).text();
+  return json + "\n]\n";
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/experiments/kkt_nonzeros.hpp"
+
+#include <cmath>
+
+#include "swarm_planner/model/trajectory.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr long long kAxes = 3;
+
+/// Rows and their entries in the state.
+struct RowCount {
+  long long rows = 0;
+  long long entries = 0;
+
+  void add(long long count, long long entries_each) {
+    rows += count;
+    entries += count * entries_each;
+  }
+};
+
+/// `per_point` half-spaces on the control points of all segments, with `axes` entries per part of the state. The first
+/// three points of the first segment are fixed by the start.
+void addControlPointRows(long long per_point, long long axes, bool with_first_point, RowCount& count) {
+  const long long free_segments = kHorizon - 1;
+  if (with_first_point) count.add(per_point * free_segments, axes);  // p
+  count.add(per_point * free_segments, 2 * axes);                    // p and v
+  count.add(per_point * free_segments, 3 * axes);                    // p, v and a
+  count.add(per_point * kHorizon, axes);                             // the next stage's p
+}
+
+RowCount countRows(const Mission& mission) {
+  const Scenario& scenario = mission.scenario;
+  const LimitParameters& limits = mission.parameters.limits;
+  RowCount count;
+  count.add(kHorizon, kAxes);                                              // speed
+  count.add(kHorizon, 2 * kAxes);                                          // speed between the samples: v and a
+  if (std::isfinite(limits.max_acceleration)) count.add(kHorizon, kAxes);  // acceleration
+  count.add(kHorizon, 2 * kAxes);                                          // most thrust: v and a
+  count.add(kHorizon, 2);                                                  // least thrust, upwards
+  if (scenario.workspace) addControlPointRows(2 * kAxes, 1, false, count);
+  if (limits.avoidance && !scenario.uavs.empty()) {
+    const auto bodies = static_cast<long long>(scenario.obstacles.size() + scenario.uavs.size() - 1);
+    addControlPointRows(bodies, kAxes, true, count);
+  }
+  return count;
+}
+
+}  // namespace
+
+long long kktNonzeros(const Mission& mission) {
+  const RowCount rows = countRows(mission);
+  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + rows.rows;
+  const long long dynamics = kHorizon * (9 + 9) + (kHorizon - 1) * 18;
+  const long long inequalities = rows.entries + 2 * rows.rows;
+  return hessian + 2 * dynamics + 2 * inequalities;
+}
+
+}  // namespace swarm_planner
