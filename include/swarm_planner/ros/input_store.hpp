@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "swarm_planner/ros/odometry_conversion.hpp"
+#include "swarm_planner/ros/track_conversion.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
+namespace swarm_planner {
+
+/// What is known of one UAV's odometry.
+struct UavInput {
+  bool received = false;  ///< `sample` holds the newest usable message
+  OdometrySample sample;
+  double start_yaw = 0.0;  ///< heading in the first usable message [rad]
+  std::uint64_t accepted = 0;
+  std::array<std::uint64_t, kOdometryFaults> dropped{};  ///< by OdometryFault
+  std::string fault;  ///< what is wrong with the newest message; empty if it was usable
+};
+
+/// What is known of the obstacle tracks' source.
+struct TrackInput {
+  bool received = false;
+  double stamp = 0.0;     ///< of the newest usable track [s]
+  std::size_t known = 0;  ///< tracks in use
+  std::uint64_t messages = 0;
+  std::uint64_t faults = 0;
+  std::string last_fault;
+};
+
+/// The newest usable inputs, filled by the threads that receive and read once per cycle. The lock is held only while
+/// values are copied, so neither side waits for work of the other.
+class InputStore {
+ public:
+  /// `track_timeout`: a track not seen for so long is forgotten [s].
+  InputStore(std::size_t uavs, double track_timeout);
+
+  /// Ignores a sample that is older than the one it has: messages may overtake each other.
+  void accept(std::size_t uav, const OdometrySample& sample);
+  void reject(std::size_t uav, OdometryFault fault, const std::string& why);
+  /// Newer tracks replace older ones of the same id; others stay until they are too old.
+  void accept(const TrackBatch& batch);
+
+  /// Forgets every sample and track (time has jumped back). Counts stay.
+  void clear();
+
+  /// The snapshot at `now` [s], without tracks that are too old. Its time is at least that of the newest sample, which
+  /// may be ahead of `now` by kFutureTolerance.
+  void fill(double now, Snapshot& snapshot);
+
+  std::vector<UavInput> uavs() const;
+  TrackInput tracks() const;
+
+ private:
+  const double track_timeout_;
+  mutable std::mutex mutex_;
+  std::vector<UavInput> uavs_;
+  std::map<int, TrackedObstacle> tracks_;
+  TrackInput track_input_;
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/subscriber.h>
+#include <ros/timer.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "swarm_planner/ObstacleTrackArray.h"
+#include "swarm_planner/PlannerStatus.h"
+#include "swarm_planner/obstacles/superellipsoid.hpp"
+#include "swarm_planner/swarm/mission.hpp"
+
+namespace swarm_planner {
+
+/// Publishes the scenario's obstacles as perfect tracks. They move from the run's t = 0 on, which the planner's status
+/// tells; until then they wait where they are at t = 0, announced with the velocity that they will have.
+class ObstacleSimNode {
+ public:
+  explicit ObstacleSimNode(const Mission& mission);
+
+ private:
+  void receiveStatus(const PlannerStatus& status);
+  void publish();
+
+  std::vector<Superellipsoid> obstacles_;  ///< at t = 0
+  std::optional<double> time_zero_;        ///< [s]
+  ObstacleTrackArray message_;
+  ros::NodeHandle node_;
+  ros::Publisher publisher_;
+  ros::Subscriber status_subscriber_;
+  ros::Timer timer_;
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "swarm_planner/PlannerStatus.h"
+#include "swarm_planner/ros/input_store.hpp"
+
+namespace swarm_planner {
+
+/// The planner's health on /diagnostics: the cycle, the obstacle tracks, and one entry per UAV.
+class PlannerDiagnostics {
+ public:
+  /// `track_timeout` [s]: tracks older than that are out of use.
+  PlannerDiagnostics(const std::vector<std::string>& uav_names, double cycle_period, double track_timeout);
+
+  /// Notes a cycle.
+  void addCycle(const PlannerStatus& status);
+  /// Publishes the state since the last call; `now` [s] is ROS time.
+  void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now);
+  /// Time has jumped back: rates start anew.
+  void restart();
+
+ private:
+  using Status = diagnostic_updater::DiagnosticStatusWrapper;
+  void describeCycle(Status& status);
+  void describeTracks(Status& status);
+  void describeUav(std::size_t uav, Status& status);
+  double rate(std::uint64_t count, std::uint64_t last_count) const;
+
+  const double cycle_period_;
+  const double track_timeout_;
+  diagnostic_updater::Updater updater_;
+  PlannerStatus planner_status_;
+  std::vector<UavInput> uavs_, last_uavs_;
+  TrackInput tracks_, last_tracks_;
+  double now_ = 0.0, last_time_ = 0.0;      ///< [s]
+  std::uint64_t cycles_ = 0;                ///< since the last publication
+  std::uint32_t misses_ = 0;                ///< since the last publication
+  double time_sum_ = 0.0, time_max_ = 0.0;  ///< of cycles since the last publication [s]
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+
+#include <string>
+
+#include "swarm_planner/SwarmPlan.h"
+#include "swarm_planner/UavPlan.h"
+#include "swarm_planner/model/setpoints.hpp"
+#include "swarm_planner/model/trajectory.hpp"
+
+namespace swarm_planner {
+
+/// Setpoints as drivers take them: stamp = epoch, frame = `frame`, one "joint" called base_link, position, yaw,
+/// velocity and acceleration in every point. Reuses the memory of `message`.
+void toMessage(const SetpointTrajectory& trajectory, const std::string& frame,
+               trajectory_msgs::MultiDOFJointTrajectory& message);
+
+/// The way back. Points that lack a velocity or an acceleration have it zero. Throws std::invalid_argument with the
+/// reason if a point has no transform.
+SetpointTrajectory toSetpoints(const trajectory_msgs::MultiDOFJointTrajectory& message);
+
+/// The exact plan of one UAV. Reuses the memory of `message`.
+void toMessage(const Trajectory& plan, const std::string& uav, UavPlan& message);
+
+/// The way back, knots rolled out. Throws std::invalid_argument if the message has not kHorizon segments or its dt is
+/// not positive.
+Trajectory toTrajectory(const UavPlan& message);
+
+}  // namespace swarm_planner

@@ -1,0 +1,138 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/ros/planner_node.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/node_constants.hpp"
+#include "swarm_planner/ros/status_conversion.hpp"
+#include "swarm_planner/ros/time_conversion.hpp"
+
+namespace swarm_planner {
+namespace {
+
+std::vector<std::string> namesOf(const SwarmPlanner& planner) {
+  std::vector<std::string> names;
+  for (std::size_t uav = 0; uav < planner.uavCount(); ++uav) names.push_back(planner.uavName(uav));
+  return names;
+}
+
+// One period ahead of the time at which the timer should have fired, which keeps epochs equidistant however late the
+// callback comes; one period ahead of `now` if that grid does not fit (a late cycle, a jump of time).
+double epochFor(double expected, double now, double period) {
+  const double epoch = expected + period;
+  const bool fits = epoch >= now && epoch <= now + period;
+  return fits ? epoch : now + period;
+}
+
+}  // namespace
+
+PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const PlannerNodeOptions& options)
+    : planner_(std::move(planner)),
+      names_(namesOf(planner_)),
+      frame_(options.planning_frame.empty() ? mission.scenario.frame_id : options.planning_frame),
+      cycle_period_(mission.parameters.time.cycle_period),
+      inputs_(names_, frame_, options, mission.parameters.input),
+      outputs_(names_, frame_, options),
+      diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
+      markers_(mission, frame_, options, inputs_) {
+  if (options.setpoint_horizon < 2.0 * cycle_period_) {
+    ROS_WARN("setpoint_horizon is %.2f s: vehicles run out of setpoints when one cycle of %.2f s is lost",
+             options.setpoint_horizon, cycle_period_);
+  }
+  ros::NodeHandle node;
+  ros::NodeHandle private_node("~");
+  set_reference_server_ = private_node.advertiseService(kSetReferenceService, &PlannerNode::setReference, this);
+  cycle_timer_ = node.createTimer(ros::Duration(cycle_period_), &PlannerNode::runCycle, this);
+  diagnostics_timer_ =
+      node.createWallTimer(ros::WallDuration(options.diagnostic_period), [this](const ros::WallTimerEvent&) {
+        diagnostics_.publish(inputs_.store().uavs(), inputs_.store().tracks(), toSeconds(ros::Time::now()));
+      });
+  ROS_INFO("Planning for %zu UAVs of '%s' in frame '%s' every %.2f s", names_.size(), mission.scenario.name.c_str(),
+           frame_.c_str(), cycle_period_);
+}
+
+void PlannerNode::runCycle(const ros::TimerEvent& event) {
+  const double now = toSeconds(ros::Time::now());
+  if (now < last_now_) resetAfterTimeJump(now);
+  last_now_ = now;
+  inputs_.store().fill(now, snapshot_);
+  const double epoch = std::max(snapshot_.now, epochFor(toSeconds(event.current_expected), now, cycle_period_));
+  planner_.plan(snapshot_, epoch);
+  const bool deadline_missed = toSeconds(ros::Time::now()) > epoch;
+  publishCycle(now, deadline_missed);
+}
+
+void PlannerNode::publishCycle(double now, bool deadline_missed) {
+  const std::vector<UavInput> uavs = inputs_.store().uavs();
+  outputs_.publishPlans(planner_, uavs, now);
+
+  deadline_misses_ += deadline_missed ? 1 : 0;
+  std::vector<std::string> reasons;
+  for (std::size_t uav = 0; uav < names_.size(); ++uav) {
+    reasons.push_back(describeReason(planner_, uav, uavs, inputs_.odometryTopic(uav)));
+  }
+  toMessage(planner_, {now, frame_, deadline_missed, deadline_misses_}, reasons, status_);
+  outputs_.publishStatus(status_);
+  diagnostics_.addCycle(status_);
+  markers_.update(planner_, status_);
+  if (deadline_missed) {
+    ROS_WARN_THROTTLE(5.0, "Cycle missed its deadline: planning took %.0f ms (%u so far)", 1e3 * status_.cycle_time,
+                      deadline_misses_);
+  }
+  const bool held = std::any_of(reasons.begin(), reasons.end(), [](const std::string& text) { return !text.empty(); });
+  if (held) {
+    std::string text;
+    for (std::size_t uav = 0; uav < names_.size(); ++uav) {
+      if (!reasons[uav].empty()) text += "\n  " + names_[uav] + ": " + reasons[uav];
+    }
+    ROS_WARN_STREAM_THROTTLE(5.0, "Not every UAV is tracking:" << text);
+  }
+}
+
+void PlannerNode::resetAfterTimeJump(double now) {
+  ROS_WARN("ROS time jumped back by %.2f s: plans and inputs are forgotten, the run starts anew", last_now_ - now);
+  planner_.reset();
+  inputs_.store().clear();
+  diagnostics_.restart();
+  markers_.clear();
+}
+
+bool PlannerNode::setReference(SetReference::Request& request, SetReference::Response& response) {
+  try {
+    const std::size_t uav = uavIndex(request.uav);
+    planner_.setReference(uav, pathInPlanningFrame(request), request.start, request.speed);
+    response.success = true;
+    response.message = request.uav + " follows the new reference from the next epoch on";
+    ROS_INFO_STREAM(response.message);
+  } catch (const std::invalid_argument& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_WARN_STREAM("set_reference refused: " << response.message);
+  }
+  return true;  // false would drop the message that says why
+}
+
+std::vector<Vector3> PlannerNode::pathInPlanningFrame(const SetReference::Request& request) const {
+  std::string why;
+  const auto pose = inputs_.frames().toPlanning(request.header.frame_id, request.header.stamp, why);
+  if (!pose) throw std::invalid_argument(why);
+  std::vector<Vector3> path;
+  for (const geometry_msgs::Point& point : request.path) path.push_back(*pose * toVector3(point));
+  return path;
+}
+
+std::size_t PlannerNode::uavIndex(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
+  std::string known;
+  for (const std::string& each : names_) known += (known.empty() ? "" : ", ") + each;
+  throw std::invalid_argument("no UAV is called '" + name + "'; there are: " + known);
+}
+
+}  // namespace swarm_planner

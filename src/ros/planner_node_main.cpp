@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/node_handle.h>
+
+#include "swarm_planner/ros/node_parameters.hpp"
+#include "swarm_planner/ros/planner_node.hpp"
+#include "swarm_planner/ros/planner_options.hpp"
+
+int main(int argc, char** argv) {
+  using namespace swarm_planner;
+  ros::init(argc, argv, "planner_node");
+  ros::NodeHandle private_node("~");
+  try {
+    Faults faults;
+    ParameterMap parameters = readPrivateParameters(private_node, faults);
+    const PlannerNodeOptions options = takePlannerNodeOptions(parameters, faults);
+    const Mission mission = loadNodeMission(options.scenario, parameters, faults);
+    PlannerNode node(SwarmPlanner(mission), mission, options);
+    ros::spin();
+  } catch (const ConfigError& error) {
+    ROS_FATAL_STREAM("planner_node cannot start:\n" << error.what());
+    return 1;
+  }
+  return 0;
+}

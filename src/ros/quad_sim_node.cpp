@@ -1,0 +1,218 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/ros/quad_sim_node.hpp"
+
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/transport_hints.h>
+#include <tf2/buffer_core.h>
+
+#include <algorithm>
+#include <boost/function.hpp>
+#include <fstream>
+#include <stdexcept>
+
+#include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/node_constants.hpp"
+#include "swarm_planner/ros/quad_odometry.hpp"
+#include "swarm_planner/ros/time_conversion.hpp"
+#include "swarm_planner/ros/track_conversion.hpp"
+#include "swarm_planner/ros/trajectory_conversion.hpp"
+
+namespace swarm_planner {
+namespace {
+
+// The run is measured, and /clock advances, in such steps [s].
+constexpr double kStep = 0.01;
+// A longer gap is a jump of time, not a delay to make up for [s].
+constexpr double kJump = 1.0;
+// Between warnings of one kind [s].
+constexpr double kWarningPeriod = 5.0;
+
+}  // namespace
+
+QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
+    : mission_(mission), options_(options), clock_(options.speed), samples_(mission.scenario.uavs.size()) {
+  const auto seed = static_cast<std::uint64_t>(mission_.parameters.simulation.seed);
+  for (const ScenarioUav& uav : mission_.scenario.uavs) {
+    quads_.emplace_back(mission_.parameters, uav.start, seed + quads_.size());
+    odometry_.push_back(
+        node_.advertise<nav_msgs::Odometry>(nameForUav(options_.odometry_topic, uav.name), kOdometryQueueSize));
+  }
+  for (const ScenarioObstacle& obstacle : mission_.scenario.obstacles) {
+    obstacles_.emplace_back();
+    obstacles_.back().shape = makeObstacle(obstacle);
+  }
+  subscribe();
+  // Steps are due by the clock that makes ROS time; a ROS timer would wait for itself there.
+  if (clock_.makesRosTime()) {
+    wall_timer_ = node_.createWallTimer(ros::WallDuration(kStep / options_.speed),
+                                        [this](const ros::WallTimerEvent&) { catchUp(); });
+  } else {
+    timer_ = node_.createTimer(ros::Duration(kStep), [this](const ros::TimerEvent&) { catchUp(); });
+  }
+}
+
+void QuadSimNode::subscribe() {
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    const boost::function<void(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr&)> callback =
+        [this, uav](const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message) {
+          receiveTrajectory(uav, *message);
+        };
+    const std::string topic = nameForUav(options_.trajectory_topic, mission_.scenario.uavs[uav].name);
+    subscribers_.push_back(node_.subscribe<trajectory_msgs::MultiDOFJointTrajectory>(
+        topic, kTrajectoryQueueSize, callback, ros::VoidConstPtr(), hints));
+  }
+  subscribers_.push_back(
+      node_.subscribe(kObstacleTracksTopic, kObstacleTracksQueueSize, &QuadSimNode::receiveTracks, this, hints));
+  subscribers_.push_back(
+      node_.subscribe(kPlannerStatusTopic, kStatusQueueSize, &QuadSimNode::receiveStatus, this, hints));
+}
+
+void QuadSimNode::receiveTrajectory(std::size_t uav, const trajectory_msgs::MultiDOFJointTrajectory& message) {
+  const std::string& name = mission_.scenario.uavs[uav].name;
+  if (message.header.frame_id != mission_.scenario.frame_id) {
+    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory in frame '%s' ignored, expected '%s'", name.c_str(),
+                      message.header.frame_id.c_str(), mission_.scenario.frame_id.c_str());
+    return;
+  }
+  try {
+    if (!quads_[uav].receive(toSetpoints(message))) throw std::invalid_argument("it cannot be flown");
+  } catch (const std::invalid_argument& error) {
+    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: %s", name.c_str(), error.what());
+  }
+}
+
+void QuadSimNode::receiveTracks(const ObstacleTrackArray& message) {
+  // The truth is given in the world's own frame: no tf needed.
+  const tf2::BufferCore no_transforms;
+  const FrameTransformer frames(no_transforms, mission_.scenario.frame_id, 0.0);
+  const TrackBatch batch = convertTracks(message, frames, toSeconds(message.header.stamp), kJump);
+  for (const std::string& fault : batch.faults) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, fault);
+  for (const TrackedObstacle& track : batch.tracks) {
+    const auto known = std::find_if(obstacles_.begin(), obstacles_.end(), [&track](const TrackedObstacle& obstacle) {
+      return obstacle.shape.id() == track.shape.id();
+    });
+    if (known != obstacles_.end()) *known = track;
+  }
+}
+
+void QuadSimNode::receiveStatus(const PlannerStatus& status) {
+  if (!status.started) {
+    time_zero_.reset();
+    monitor_.reset();
+    return;
+  }
+  const double time_zero = toSeconds(status.time_zero);
+  if (time_zero_ != time_zero) {
+    time_zero_ = time_zero;
+    monitor_.emplace(mission_);
+    cycles_ = 0;
+    cycle_time_sum_ = 0.0;
+    cycle_time_max_ = 0.0;
+    clear_ = false;
+    ROS_INFO("Run of '%s' starts at %.2f s", mission_.scenario.name.c_str(), time_zero);
+  }
+  ++cycles_;
+  cycle_time_sum_ += status.cycle_time;
+  cycle_time_max_ = std::max(cycle_time_max_, status.cycle_time);
+  deadline_misses_ = status.deadline_misses;
+}
+
+void QuadSimNode::catchUp() {
+  const double now = clock_.now();
+  if (now < time_ || now - time_ > kJump) restartClock(now);
+  while (origin_ + static_cast<double>(steps_ + 1) * kStep <= now) advance();
+}
+
+void QuadSimNode::restartClock(double now) {
+  if (time_ > 0.0) {
+    ROS_WARN("Time jumped by %.2f s: every UAV holds its position", now - time_);
+    monitor_.reset();
+    time_zero_.reset();
+  }
+  origin_ = now;
+  steps_ = 0;
+  time_ = now;
+  next_odometry_ = now;
+  for (QuadSimulator& quad : quads_) quad.resetClock(now);
+}
+
+void QuadSimNode::advance() {
+  ++steps_;
+  time_ = origin_ + static_cast<double>(steps_) * kStep;
+  for (QuadSimulator& quad : quads_) quad.advanceTo(time_);
+  clock_.publish(time_);
+  if (time_ >= next_odometry_ - 0.5 * kStep) {
+    next_odometry_ += 1.0 / mission_.parameters.simulation.odometry_rate;
+    publishOdometry();
+  }
+  if (monitor_ && time_ >= *time_zero_) observe();
+}
+
+void QuadSimNode::publishOdometry() {
+  std::vector<geometry_msgs::TransformStamped> transforms(quads_.size());
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    nav_msgs::Odometry message;
+    message.header.stamp = toRosTime(time_);
+    message.header.frame_id = mission_.scenario.frame_id;
+    message.child_frame_id = nameForUav(kBaseLinkFrame, mission_.scenario.uavs[uav].name);
+    setPoseAndTwist(quads_[uav].measure(), quads_[uav].state(), message);
+    odometry_[uav].publish(message);
+
+    transforms[uav].header = message.header;
+    transforms[uav].child_frame_id = message.child_frame_id;
+    transforms[uav].transform.translation = toVector3Message(toVector3(message.pose.pose.position));
+    transforms[uav].transform.rotation = message.pose.pose.orientation;
+  }
+  broadcaster_.sendTransform(transforms);
+}
+
+void QuadSimNode::observe() {
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    const QuadSimulator& quad = quads_[uav];
+    samples_[uav] = {quad.state().p, quad.state().v, quad.trackingError(), quad.setpoint().jerk};
+  }
+  obstacles_now_.clear();
+  for (const TrackedObstacle& obstacle : obstacles_) {
+    // Not heard of: where the scenario has it since t = 0.
+    const double since = obstacle.stamp > 0.0 ? obstacle.stamp : *time_zero_;
+    obstacles_now_.push_back(obstacle.shape.movedBy(time_ - since));
+  }
+  const double run_time = time_ - *time_zero_;
+  monitor_->observe(run_time, samples_, obstacles_now_);
+  if (monitor_->ended()) {
+    endRun("scenario");
+  } else if (options_.duration > 0.0 && run_time >= options_.duration) {
+    endRun("duration");
+  }
+}
+
+void QuadSimNode::endRun(const std::string& ended_by) {
+  RunReport report;
+  report.scenario = mission_.scenario.name;
+  report.uavs = quads_.size();
+  report.ended_by = ended_by;
+  report.summary = monitor_->summary();
+  report.cycles = cycles_;
+  report.cycle_time_mean = cycles_ > 0 ? cycle_time_sum_ / static_cast<double>(cycles_) : 0.0;
+  report.cycle_time_max = cycle_time_max_;
+  report.deadline_misses = deadline_misses_;
+  clear_ = report.clear();
+  monitor_.reset();
+  ROS_INFO_STREAM(toText(report));
+  if (!options_.summary_file.empty()) {
+    std::ofstream file(options_.summary_file);
+    file << toJson(report) << "\n";
+    if (!file) ROS_ERROR("Cannot write the summary to '%s'", options_.summary_file.c_str());
+  }
+  if (options_.exit_at_end) ros::shutdown();
+}
+
+void QuadSimNode::reportIfInterrupted() {
+  if (monitor_) endRun("interrupt");
+}
+
+}  // namespace swarm_planner

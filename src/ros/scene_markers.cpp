@@ -1,0 +1,163 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/ros/scene_markers.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/marker_shapes.hpp"
+
+namespace swarm_planner {
+namespace {
+
+using visualization_msgs::Marker;
+
+// Around an obstacle's equator.
+constexpr int kObstacleSlices = 40;
+// How far ahead a velocity arrow points [s].
+constexpr double kArrowTime = 2.0;
+// Slower is shown as standing still [m/s].
+constexpr double kStandstill = 1e-3;
+
+std_msgs::ColorRGBA color(float r, float g, float b, float a) {
+  std_msgs::ColorRGBA rgba;
+  rgba.r = r;
+  rgba.g = g;
+  rgba.b = b;
+  rgba.a = a;
+  return rgba;
+}
+
+std::vector<geometry_msgs::Point> toPoints(const std::vector<Vector3>& vectors) {
+  std::vector<geometry_msgs::Point> points;
+  points.reserve(vectors.size());
+  for (const Vector3& vector : vectors) points.push_back(toPoint(vector));
+  return points;
+}
+
+void setScale(const Vector3& scale, Marker& marker) { marker.scale = toVector3Message(scale); }
+
+}  // namespace
+
+std_msgs::ColorRGBA uavColor(int index, float alpha) {
+  constexpr double kGoldenRatio = 0.618033988749895;
+  const double hue = 6.0 * std::fmod(0.58 + kGoldenRatio * index, 1.0);
+  const auto channel = [hue](double peak) {
+    const double distance = std::abs(std::remainder(hue - peak, 6.0));
+    const double value = std::min(1.0, std::max(0.0, 2.0 - distance));
+    return static_cast<float>(0.08 + 0.84 * value);
+  };
+  return color(channel(0.0), channel(2.0), channel(4.0), alpha);
+}
+
+SceneMarkers::SceneMarkers(std::string frame, const MarkerSizes& sizes)
+    : frame_(std::move(frame)), sizes_(sizes), uav_mesh_(toPoints(quadrotorMesh(sizes.uav))) {}
+
+void SceneMarkers::begin(const ros::Time& stamp) {
+  stamp_ = stamp;
+  message_.markers.clear();
+}
+
+visualization_msgs::Marker& SceneMarkers::add(const char* ns, int id, int type) {
+  message_.markers.emplace_back();
+  Marker& marker = message_.markers.back();
+  marker.header.frame_id = frame_;
+  marker.header.stamp = stamp_;
+  marker.ns = ns;
+  marker.id = id;
+  marker.type = type;
+  marker.action = Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  return marker;
+}
+
+void SceneMarkers::addUav(int index, const UavDrawing& uav) {
+  if (uav.located) {
+    Marker& body = add("uav", index, Marker::TRIANGLE_LIST);
+    body.pose.position = toPoint(uav.position);
+    body.pose.orientation = toQuaternionMessage(uav.orientation);
+    setScale(Vector3::Ones(), body);
+    body.color = uavColor(index, 1.0F);
+    body.points = uav_mesh_;
+
+    Marker& separation = add("separation", index, Marker::SPHERE);
+    separation.pose.position = body.pose.position;
+    setScale(2.0 * sizes_.pair_axes, separation);
+    separation.color = uavColor(index, 0.2F);
+
+    Marker& label = add("label", index, Marker::TEXT_VIEW_FACING);
+    label.pose.position = toPoint(uav.position + sizes_.uav * Vector3::UnitZ());
+    label.scale.z = 0.8 * sizes_.uav;
+    label.text = uav.note.empty() ? uav.name : uav.name + ": " + uav.note;
+    label.color = uav.note.empty() ? color(0.1F, 0.1F, 0.12F, 1.0F) : color(0.85F, 0.1F, 0.05F, 1.0F);
+  }
+  if (uav.trail.size() > 1) {
+    Marker& trail = add("trail", index, Marker::LINE_STRIP);
+    trail.points = toPoints(uav.trail);
+    trail.scale.x = 0.12 * sizes_.uav;
+    trail.color = uavColor(index, 0.9F);
+  }
+  if (uav.planned) {
+    Marker& plan = add("plan", index, Marker::LINE_STRIP);
+    constexpr int kPointsPerSegment = 2;
+    for (int i = 0; i <= kPointsPerSegment * kHorizon; ++i) {
+      plan.points.push_back(toPoint(uav.plan.at(uav.plan.epoch + i * uav.plan.dt / kPointsPerSegment).p));
+    }
+    plan.scale.x = 0.3 * sizes_.uav;
+    plan.color = uavColor(index, 0.45F);
+  }
+  if (uav.targeted) addTarget(index, uav);
+}
+
+void SceneMarkers::addTarget(int index, const UavDrawing& uav) {
+  Marker& target = add("target", index, Marker::SPHERE);
+  target.pose.position = toPoint(uav.target.p);
+  setScale(Vector3::Constant(0.5 * sizes_.uav), target);
+  target.color = uavColor(index, 0.9F);
+}
+
+void SceneMarkers::addReference(int index, const MovingTarget& reference, double until) {
+  const std::vector<Vector3> ends = dashes(reference.path, until, sizes_.uav);
+  if (ends.empty()) return;
+  Marker& line = add("reference", index, Marker::LINE_LIST);
+  line.points = toPoints(ends);
+  line.scale.x = 0.08 * sizes_.uav;
+  line.color = color(0.2F, 0.55F, 0.25F, 0.8F);
+}
+
+void SceneMarkers::addObstacle(const TrackedObstacle& obstacle, double now) {
+  const Superellipsoid body = obstacle.shape.movedBy(now - obstacle.stamp);
+  const bool moves = body.velocity().norm() > kStandstill;
+  Marker& surface = add("obstacle", body.id(), Marker::TRIANGLE_LIST);
+  surface.points = toPoints(superellipsoidMesh(body.radii(), body.exponents(), kObstacleSlices));
+  surface.pose.position = toPoint(body.center());
+  surface.pose.orientation = toQuaternionMessage(yawRotation(body.yaw()));
+  setScale(Vector3::Ones(), surface);
+  surface.color = moves ? color(0.9F, 0.45F, 0.15F, 0.75F) : color(0.5F, 0.54F, 0.6F, 0.75F);
+
+  if (!moves) {
+    add("velocity", body.id(), Marker::ARROW).action = Marker::DELETE;
+    return;
+  }
+  Marker& arrow = add("velocity", body.id(), Marker::ARROW);
+  const Vector3 top = body.center() + (body.radii().z() + 0.5 * sizes_.uav) * Vector3::UnitZ();
+  arrow.points = {toPoint(top), toPoint(top + kArrowTime * body.velocity())};
+  setScale(sizes_.uav * Vector3(0.25, 0.6, 0.8), arrow);
+  arrow.color = color(0.8F, 0.2F, 0.05F, 1.0F);
+}
+
+void SceneMarkers::removeObstacle(int id) {
+  for (const char* ns : {"obstacle", "velocity"}) add(ns, id, Marker::TRIANGLE_LIST).action = Marker::DELETE;
+}
+
+void SceneMarkers::addStatus(const Vector3& position, const std::string& text) {
+  Marker& line = add("status", 0, Marker::TEXT_VIEW_FACING);
+  line.pose.position = toPoint(position);
+  line.scale.z = sizes_.text;
+  line.text = text;
+  line.color = color(0.1F, 0.1F, 0.12F, 1.0F);
+}
+
+void SceneMarkers::removeAll() { add("", 0, Marker::CUBE).action = Marker::DELETEALL; }
+
+}  // namespace swarm_planner

@@ -1,0 +1,85 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/ros/trajectory_conversion.hpp"
+
+#include <stdexcept>
+
+#include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/time_conversion.hpp"
+
+namespace swarm_planner {
+
+void toMessage(const SetpointTrajectory& trajectory, const std::string& frame,
+               trajectory_msgs::MultiDOFJointTrajectory& message) {
+  message.header.stamp = toRosTime(trajectory.epoch);
+  message.header.frame_id = frame;
+  message.joint_names.assign(1, "base_link");
+  message.points.resize(trajectory.points.size());
+  for (std::size_t i = 0; i < trajectory.points.size(); ++i) {
+    const Setpoint& setpoint = trajectory.points[i];
+    trajectory_msgs::MultiDOFJointTrajectoryPoint& point = message.points[i];
+    point.time_from_start = ros::Duration(setpoint.time_from_start);
+    point.transforms.resize(1);
+    point.transforms[0].translation = toVector3Message(setpoint.p);
+    point.transforms[0].rotation = toQuaternionMessage(yawRotation(setpoint.yaw));
+    point.velocities.resize(1);
+    point.velocities[0].linear = toVector3Message(setpoint.v);
+    point.accelerations.resize(1);
+    point.accelerations[0].linear = toVector3Message(setpoint.a);
+  }
+}
+
+SetpointTrajectory toSetpoints(const trajectory_msgs::MultiDOFJointTrajectory& message) {
+  SetpointTrajectory trajectory;
+  trajectory.epoch = toSeconds(message.header.stamp);
+  trajectory.points.reserve(message.points.size());
+  for (const auto& point : message.points) {
+    if (point.transforms.empty()) throw std::invalid_argument("a trajectory point has no transform");
+    Setpoint setpoint;
+    setpoint.time_from_start = point.time_from_start.toSec();
+    setpoint.p = toVector3(point.transforms[0].translation);
+    setpoint.yaw = yawOf(toQuaternion(point.transforms[0].rotation));
+    if (!point.velocities.empty()) setpoint.v = toVector3(point.velocities[0].linear);
+    if (!point.accelerations.empty()) setpoint.a = toVector3(point.accelerations[0].linear);
+    trajectory.points.push_back(setpoint);
+  }
+  return trajectory;
+}
+
+void toMessage(const Trajectory& plan, const std::string& uav, UavPlan& message) {
+  message.name = uav;
+  message.epoch = toRosTime(plan.epoch);
+  message.dt = plan.dt;
+  message.jerks.resize(3 * plan.jerks.size());
+  const KinematicState& start = plan.knots.front();
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    message.position[i] = start.p[axis];
+    message.velocity[i] = start.v[axis];
+    message.acceleration[i] = start.a[axis];
+    for (std::size_t k = 0; k < plan.jerks.size(); ++k) message.jerks[3 * k + i] = plan.jerks[k][axis];
+  }
+}
+
+Trajectory toTrajectory(const UavPlan& message) {
+  if (message.jerks.size() != 3 * static_cast<std::size_t>(kHorizon)) {
+    throw std::invalid_argument("a plan of '" + message.name + "' has " + std::to_string(message.jerks.size()) +
+                                " jerks, expected " + std::to_string(3 * kHorizon));
+  }
+  if (!(message.dt > 0.0))
+    throw std::invalid_argument("a plan of '" + message.name + "' has a dt that is not positive");
+  Trajectory plan;
+  plan.epoch = toSeconds(message.epoch);
+  plan.dt = message.dt;
+  KinematicState start;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    start.p[axis] = message.position[i];
+    start.v[axis] = message.velocity[i];
+    start.a[axis] = message.acceleration[i];
+    for (std::size_t k = 0; k < plan.jerks.size(); ++k) plan.jerks[k][axis] = message.jerks[3 * k + i];
+  }
+  rollOut(start, plan);
+  return plan;
+}
+
+}  // namespace swarm_planner
