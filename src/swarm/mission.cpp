@@ -2,7 +2,6 @@
 #include "swarm_planner/swarm/mission.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <sstream>
 #include <vector>
@@ -75,20 +74,26 @@ void checkWorkspace(const Scenario& scenario, const std::string& source, Faults&
   }
 }
 
-/// Whether the distances are fit to check starts with; if not, they are faults themselves.
-bool usable(const LimitParameters& limits) {
-  return limits.pair_distance > 0.0 && limits.pair_distance_vertical > 0.0 && limits.uav_radius >= 0.0;
+/// Whether a parameter, or the scenario's override of it, is among the faults.
+bool isFaulty(const Faults& faults, const std::string& name) {
+  return std::any_of(faults.list().begin(), faults.list().end(),
+                     [&](const Fault& fault) { return fault.key == name || fault.key == "overrides." + name; });
 }
 
-/// Resolves parameters and checks starts, for a scenario without faults of its own.
+/// The mission of a scenario read without faults other than those in `faults`. Throws ConfigError that lists all.
 Mission resolve(const Scenario& scenario, const ParameterMap& given, const std::string& source, Faults& faults) {
+  const bool scenario_stands = faults.empty();
   Mission mission{scenario, resolveParameters(given, scenario.overrides, source, faults)};
-  const LimitParameters& limits = mission.parameters.limits;
-  if (usable(limits)) {
-    checkPairs(scenario.uavs, limits, source, faults);
-    checkObstacles(scenario, limits, source, faults);
+  if (scenario_stands) {
+    // A distance that is a fault itself stands at its default: starts judged by it would mislead.
+    const LimitParameters& limits = mission.parameters.limits;
+    if (!isFaulty(faults, "pair_distance") && !isFaulty(faults, "pair_distance_vertical")) {
+      checkPairs(scenario.uavs, limits, source, faults);
+    }
+    if (!isFaulty(faults, "uav_radius")) checkObstacles(scenario, limits, source, faults);
+    checkWorkspace(scenario, source, faults);
   }
-  checkWorkspace(scenario, source, faults);
+  faults.throwIfAny();
   return mission;
 }
 
@@ -97,21 +102,14 @@ Mission resolve(const Scenario& scenario, const ParameterMap& given, const std::
 Mission loadMission(const std::string& scenario_path, const ParameterMap& given) {
   Faults faults;
   const Scenario scenario = parseScenarioFile(scenario_path, faults);
-  if (!faults.empty()) {
-    // The geometry of a faulty scenario means nothing; its parameters can still be judged.
-    resolveParameters(given, scenario.overrides, scenario_path, faults);
-    faults.throwIfAny();
-  }
-  Mission mission = resolve(scenario, given, scenario_path, faults);
-  faults.throwIfAny();
-  return mission;
+  return resolve(scenario, given, scenario_path, faults);
 }
 
 Mission makeMission(const Scenario& scenario, const ParameterMap& given, const std::string& source) {
   Faults faults;
-  Mission mission = resolve(scenario, given, source, faults);
-  faults.throwIfAny();
-  return mission;
+  // A program's scenario must satisfy what a file's must: written as one, it is judged by the same rules.
+  parseScenarioText(toYaml(scenario), source, faults);
+  return resolve(scenario, given, source, faults);
 }
 
 Superellipsoid makeObstacle(const ScenarioObstacle& obstacle) {

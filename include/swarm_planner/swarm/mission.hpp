@@ -16,13 +16,16 @@ struct Mission {
 };
 
 /// Reads a scenario file and resolves its parameters on top of `given`. Throws ConfigError that lists every
-/// fault, including UAVs that start closer to each other or to an obstacle than the limits allow.
+/// fault, including UAVs that start inside each other's pair ellipsoid (14), closer than uav_radius to an obstacle's
+/// surface, or outside the workspace.
 Mission loadMission(const std::string& scenario_path, const ParameterMap& given);
 
-/// The same for a scenario made by a program. `source` names it in faults.
+/// The same for a scenario made by a program; it is held to the rules of a scenario file. `source` names it in faults;
+/// lines in them are those of toYaml(scenario).
 Mission makeMission(const Scenario& scenario, const ParameterMap& given, const std::string& source);
 
-/// The obstacle at its t = 0.
+/// The obstacle at its t = 0. Throws std::invalid_argument if its numbers make no superellipsoid, which a mission's
+/// obstacles always do.
 Superellipsoid makeObstacle(const ScenarioObstacle& obstacle);
 
 }  // namespace swarm_planner
