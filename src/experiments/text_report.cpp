@@ -44,7 +44,7 @@ Row toRow(const RunResult& run) {
           std::to_string(flown.stuck_uavs),
           std::to_string(flown.arrived_uavs),
           fixed(flown.mission_time, 2),
-          fixed(flown.tracking_error.mean, 3),
+          fixed(flown.tracking_error.mean, 4),
           std::to_string(fallbackCount(run))};
 }
 

@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// If these fail, a mistyped command line flies something else than was meant, for hours.
+#include <gtest/gtest.h>
+
+#include "swarm_planner/experiments/experiment_options.hpp"
+
+namespace swarm_planner {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+TEST(ExperimentOptions, ReadsWhatIsGiven) {
+  const ExperimentOptions options =
+      parseExperimentOptions({"fly", "a.yaml", "--seeds", "3:5", "b.yaml", "--json=out.json", "--csv", "dir", "--noise",
+                              "0.02", "--without", "avoidance", "--params", "p.yaml", "--threads", "1"});
+  EXPECT_EQ(options.command, ExperimentCommand::kFly);
+  EXPECT_EQ(options.scenario_files, (Arguments{"a.yaml", "b.yaml"}));
+  EXPECT_EQ(options.seeds, (std::vector<std::uint64_t>{3, 4, 5}));
+  EXPECT_EQ(options.json_file, "out.json");
+  EXPECT_EQ(options.csv_directory, "dir");
+  EXPECT_EQ(options.parameter_file, "p.yaml");
+  EXPECT_EQ(options.noise, 0.02);
+  EXPECT_FALSE(options.avoidance);
+}
+
+TEST(ExperimentOptions, HasTheStudiesOfThePaperAsDefaults) {
+  const ExperimentOptions monte_carlo = parseExperimentOptions({"monte_carlo"});
+  EXPECT_EQ(monte_carlo.uavs, std::vector<int>{6});
+  EXPECT_EQ(monte_carlo.seeds.size(), 100u);
+  EXPECT_EQ(monte_carlo.seeds.back(), 99u);
+  const ExperimentOptions part = parseExperimentOptions({"monte_carlo", "--scenarios", "4", "--seed", "10"});
+  EXPECT_EQ(part.seeds, (std::vector<std::uint64_t>{10, 11, 12, 13}));
+  EXPECT_EQ(parseExperimentOptions({"monte_carlo", "--seeds", "7:7"}).seeds, std::vector<std::uint64_t>{7});
+  EXPECT_EQ(parseExperimentOptions({"scaling"}).uavs, (std::vector<int>{6, 16, 32, 64}));
+  EXPECT_EQ(parseExperimentOptions({"scaling", "--uavs", "6", "128"}).uavs, (std::vector<int>{6, 128}));
+  const ExperimentOptions swap = parseExperimentOptions({"circle_swap", "--radius", "4.5"});
+  EXPECT_EQ(swap.uavs, std::vector<int>{10});
+  EXPECT_EQ(swap.radius, 4.5);
+  EXPECT_EQ(swap.seeds, std::vector<std::uint64_t>{0});
+  EXPECT_TRUE(parseExperimentOptions({"fly", "a.yaml"}).seeds.empty());
+  EXPECT_EQ(parseExperimentOptions({"scaling", "--help"}).command, ExperimentCommand::kHelp);
+}
+
+struct Mistake {
+  Arguments arguments;
+  std::string expected;  ///< part of the message
+};
+
+TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
+  const std::vector<Mistake> mistakes = {
+      {{}, "no command"},
+      {{"flye"}, "unknown command \"flye\""},
+      {{"compare"}, "unknown command"},
+      {{"fly"}, "no scenario file"},
+      {{"fly", "a.yaml", "--jsn", "x"}, "unknown option --jsn"},
+      {{"fly", "a.yaml", "--json"}, "--json: a value is missing"},
+      {{"fly", "a.yaml", "--json", "--csv", "dir"}, "--json: a value is missing"},
+      {{"fly", "a.yaml", "--seed", "1", "--seed", "2"}, "given twice"},
+      {{"fly", "a.yaml", "--seed", "-1"}, "--seed: expected a whole number"},
+      {{"fly", "a.yaml", "--seed", "1.5"}, "--seed: expected a whole number"},
+      {{"fly", "a.yaml", "--seed", "99999999999999999999999"}, "--seed: expected a whole number"},
+      {{"fly", "a.yaml", "--seeds", "3"}, "expected A:B"},
+      {{"fly", "a.yaml", "--seeds", "5:3"}, "--seeds: expected a whole number from 5"},
+      {{"fly", "a.yaml", "--seeds", ":3"}, "--seeds: expected a whole number"},
+      {{"fly", "a.yaml", "--seeds", "0:2000000"}, "more than a million"},
+      {{"fly", "a.yaml", "--seed", "1", "--seeds", "1:2"}, "one of them"},
+      {{"fly", "a.yaml", "--noise", "-0.1"}, "--noise: expected a number >= 0"},
+      {{"fly", "a.yaml", "--noise", "nan"}, "--noise: expected a number >= 0"},
+      {{"fly", "a.yaml", "--noise", "inf"}, "--noise: expected a number >= 0"},
+      {{"fly", "a.yaml", "--noise", "0.1x"}, "--noise: expected a number >= 0"},
+      {{"fly", "a.yaml", "--noise="}, "--noise: expected a number >= 0"},
+      {{"fly", "a.yaml", "--threads", "2"}, "1 thread"},
+      {{"fly", "a.yaml", "--without", "check"}, "only \"avoidance\""},
+      {{"fly", "a.yaml", "--uavs", "6"}, "does not go with this command"},
+      {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},
+      {{"fly", "a.yaml", "--latency", "0.1"}, "--latency: not supported yet"},
+      {{"fly", "a.yaml", "--drop", "0.1"}, "--drop: not supported yet"},
+      {{"monte_carlo", "--scenarios", "0"}, "--scenarios: expected a whole number from 1"},
+      {{"monte_carlo", "--scenarios", "5", "--seeds", "1:2"}, "one of them"},
+      {{"monte_carlo", "--uavs", "6", "7"}, "one number"},
+      {{"monte_carlo", "--radius", "7"}, "does not go with this command"},
+      {{"monte_carlo", "stray"}, "unexpected argument \"stray\""},
+      {{"scaling", "--uavs"}, "--uavs: a value is missing"},
+      {{"scaling", "--uavs", "6", "0"}, "--uavs: expected a whole number from 1"},
+      {{"circle_swap", "--radius", "0"}, "--radius: expected a number > 0"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    std::string line;
+    for (const std::string& argument : mistake.arguments) line += argument + " ";
+    try {
+      parseExperimentOptions(mistake.arguments);
+      ADD_FAILURE() << "accepted: " << line;
+    } catch (const OptionError& error) {
+      EXPECT_NE(std::string(error.what()).find(mistake.expected), std::string::npos) << line << ": " << error.what();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swarm_planner

@@ -1,0 +1,99 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// The published problem size. Counted here a second way: by posing the constraints as matrices.
+#include <gtest/gtest.h>
+
+#include "swarm_planner/experiments/kkt_nonzeros.hpp"
+#include "swarm_planner/solver/qp.hpp"
+
+namespace swarm_planner {
+namespace {
+
+/// Entries of a row with normal `n` on an output: where n and the output's gain are nonzero.
+long long entries(const OutputGains& gains, const Vector3& n) {
+  long long count = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (n(axis) == 0.0) continue;
+    count += (gains.p != 0.0 ? 1 : 0) + (gains.v(axis) != 0.0 ? 1 : 0) + (gains.a != 0.0 ? 1 : 0);
+  }
+  return count;
+}
+
+class KktCount {
+ public:
+  explicit KktCount(const Mission& mission)
+      : gains_(makeOutputGains(mission.parameters.time.sampling_time, mission.parameters.vehicle.dragOverMass())) {}
+
+  void addRow(Output output, const Vector3& n) {
+    // The row and its slack, the slack's sign, both mirrored; the slack's penalty.
+    total_ += 2 * (entries(gains_[static_cast<std::size_t>(output)], n) + 1) + 2 + 1;
+  }
+  void addDynamics() {
+    for (int k = 0; k < kHorizon; ++k) {
+      // Columns of propagate(): how many of p, v, a each entry of the state or input moves.
+      for (int column = 0; column < 12; ++column) {
+        KinematicState x;
+        Vector3 jerk = Vector3::Zero();
+        (column < 3 ? x.p : column < 6 ? x.v : column < 9 ? x.a : jerk)(column % 3) = 1.0;
+        if (k == 0 && column < 9) continue;
+        const KinematicState next = propagate(x, jerk, 0.3);
+        for (const Vector3& part : {next.p, next.v, next.a}) total_ += 2 * (part.array() != 0.0).count();
+      }
+      total_ += 2 * 9;      // x_{k+1} itself
+      total_ += 9 + 3 + 3;  // Hessian
+    }
+  }
+  long long total() const { return total_; }
+
+ private:
+  std::array<OutputGains, kOutputCount> gains_;
+  long long total_ = 0;
+};
+
+constexpr std::array<Output, 4> kControlPoints = {Output::kPosition, Output::kControlPoint1, Output::kControlPoint2,
+                                                  Output::kPosition};
+
+TEST(KktNonzeros, CountsEveryEntryOfThePosedProblem) {
+  Mission mission;
+  mission.scenario.uavs.resize(4);
+  mission.scenario.obstacles.resize(5);
+  mission.scenario.workspace = Workspace();
+  mission.parameters.limits.max_acceleration = 8.0;
+  KktCount count(mission);
+  count.addDynamics();
+  const Vector3 full(1.0, 1.0, 1.0);
+  for (int k = 0; k < kHorizon; ++k) {
+    for (const Output output :
+         {Output::kVelocity, Output::kVelocityControlPoint, Output::kAcceleration, Output::kThrustAcceleration}) {
+      count.addRow(output, full);
+    }
+    count.addRow(Output::kThrustAcceleration, Vector3::UnitZ());
+    for (std::size_t point = k > 0 ? 0 : 3; point < 4; ++point) {
+      for (int body = 0; body < 5 + 3; ++body) count.addRow(kControlPoints[point], full);
+      if (point == 0) continue;  // it is the last one of the segment before
+      for (int axis = 0; axis < 3; ++axis) {
+        count.addRow(kControlPoints[point], Vector3::Unit(axis));
+        count.addRow(kControlPoints[point], -Vector3::Unit(axis));
+      }
+    }
+  }
+  EXPECT_EQ(kktNonzeros(mission), count.total());
+}
+
+TEST(KktNonzeros, GrowsByTheSameForEveryUavOrObstacle) {
+  Mission mission;
+  mission.scenario.uavs.resize(1);
+  const long long alone = kktNonzeros(mission);
+  mission.scenario.uavs.resize(2);
+  const long long two = kktNonzeros(mission);
+  mission.scenario.uavs.resize(64);
+  EXPECT_EQ(kktNonzeros(mission) - alone, 63 * (two - alone));
+  mission.scenario.uavs.resize(1);
+  mission.scenario.obstacles.resize(1);
+  EXPECT_EQ(kktNonzeros(mission), two);
+  mission.parameters.limits.avoidance = false;
+  EXPECT_EQ(kktNonzeros(mission), alone);
+}
+
+}  // namespace
+}  // namespace swarm_planner

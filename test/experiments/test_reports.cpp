@@ -1,0 +1,142 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// If these fail, scripts that read the results break: a key is missing, a number is cut, a file is half written.
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "swarm_planner/experiments/atomic_file.hpp"
+#include "swarm_planner/experiments/json_report.hpp"
+#include "swarm_planner/experiments/statistics.hpp"
+#include "swarm_planner/experiments/text_report.hpp"
+#include "temporary_directory.hpp"
+
+namespace swarm_planner {
+namespace {
+
+RunResult someResult() {
+  RunResult run;
+  run.scenario = "a \"strange\"\n\\name";
+  run.seed = 12345678901234ULL;
+  run.uavs = 6;
+  run.cycles = 313;
+  run.cycle_ms = {1.25, 1.0, 3.0, 4.123456789};
+  run.kkt_nonzeros = 6189;
+  run.flown.min_uav_distance = 2.0 / 3.0;
+  run.flown.collisions = {{1.5, 0, false, 1}, {2.5, 1, true, 0}};
+  run.flown.final_lag = {-1.0, 2.5};
+  run.fallbacks["the solver found no plan"] = 3;
+  run.fallbacks["late"] = 1;
+  run.flown.cost = 1.0e7 / 3.0;
+  return run;
+}
+
+std::set<std::string> keysOf(const YAML::Node& node) {
+  std::set<std::string> keys;
+  for (const auto& entry : node) keys.insert(entry.first.as<std::string>());
+  return keys;
+}
+
+TEST(JsonReport, HasEveryKeyOfTheContractAndNoOther) {
+  const YAML::Node json = YAML::Load(toJson({someResult(), RunResult()}));
+  ASSERT_TRUE(json.IsSequence());
+  ASSERT_EQ(json.size(), 2u);
+  const std::set<std::string> keys = {"scenario",
+                                      "seed",
+                                      "uavs",
+                                      "cycles",
+                                      "cycle_ms",
+                                      "uav_ms",
+                                      "sqp_iterations",
+                                      "qp_iterations",
+                                      "kkt_nonzeros",
+                                      "min_uav_distance_m",
+                                      "min_obstacle_clearance_m",
+                                      "collisions",
+                                      "final_lag_m",
+                                      "stuck_uavs",
+                                      "mission_time_s",
+                                      "path_length_m",
+                                      "tracking_error_m",
+                                      "arrived_uavs",
+                                      "rejected_plans",
+                                      "workspace_violations",
+                                      "fallbacks",
+                                      "deadline_misses",
+                                      "cost"};
+  const std::set<std::string> distribution = {"mean", "median", "p99", "max"};
+  const std::set<std::string> mean_max = {"mean", "max"};
+  for (const YAML::Node& run : json) {
+    EXPECT_EQ(keysOf(run), keys);
+    EXPECT_EQ(keysOf(run["cycle_ms"]), distribution);
+    EXPECT_EQ(keysOf(run["uav_ms"]), distribution);
+    for (const char* key : {"sqp_iterations", "qp_iterations", "final_lag_m", "tracking_error_m"}) {
+      EXPECT_EQ(keysOf(run[key]), mean_max) << key;
+    }
+  }
+}
+
+TEST(JsonReport, GivesTheValuesBack) {
+  const YAML::Node run = YAML::Load(toJson({someResult()}))[0];
+  EXPECT_EQ(run["scenario"].as<std::string>(), "a \"strange\"\n\\name");
+  EXPECT_EQ(run["seed"].as<std::uint64_t>(), 12345678901234ULL);
+  EXPECT_EQ(run["collisions"].as<int>(), 2);
+  EXPECT_EQ(run["kkt_nonzeros"].as<int>(), 6189);
+  EXPECT_NEAR(run["min_uav_distance_m"].as<double>(), 2.0 / 3.0, 1e-11);
+  EXPECT_TRUE(run["min_obstacle_clearance_m"].IsNull());
+  EXPECT_EQ(run["cycle_ms"]["max"].as<double>(), 4.123456789);
+  EXPECT_EQ(run["final_lag_m"]["mean"].as<double>(), -1.0);
+  EXPECT_EQ(run["fallbacks"]["the solver found no plan"].as<int>(), 3);
+  EXPECT_EQ(run["fallbacks"]["late"].as<int>(), 1);
+  EXPECT_NEAR(run["cost"].as<double>() / (1.0e7 / 3.0), 1.0, 1e-11);
+}
+
+TEST(JsonReport, NoRunsAreAnEmptyArray) { EXPECT_EQ(YAML::Load(toJson({})).size(), 0u); }
+
+TEST(TextReport, SaysWhoCollidedWithWhatAndSumsTheRunsUp) {
+  ExperimentRun run;
+  run.mission.scenario.name = "two";
+  run.mission.scenario.uavs.resize(2);
+  run.mission.scenario.uavs[0].name = "anna";
+  run.mission.scenario.uavs[1].name = "bert";
+  run.mission.scenario.obstacles.resize(1);
+  run.mission.scenario.obstacles[0].id = 42;
+  const std::string table = toTable({run, run}, {someResult(), someResult()});
+  EXPECT_NE(table.find("anna too close to bert at 1.50 s"), std::string::npos) << table;
+  EXPECT_NE(table.find("bert too close to obstacle 42 at 2.50 s"), std::string::npos) << table;
+  EXPECT_NE(table.find("all 2 runs"), std::string::npos) << table;
+}
+
+TEST(Statistics, MedianAndPercentilesLieBetweenTheRanks) {
+  std::vector<double> samples(101);
+  std::iota(samples.rbegin(), samples.rend(), 0.0);
+  const Distribution distribution = distributionOf(samples);
+  EXPECT_DOUBLE_EQ(distribution.mean, 50.0);
+  EXPECT_DOUBLE_EQ(distribution.median, 50.0);
+  EXPECT_DOUBLE_EQ(distribution.p99, 99.0);
+  EXPECT_DOUBLE_EQ(distribution.max, 100.0);
+  EXPECT_DOUBLE_EQ(distributionOf({4.0, 1.0, 3.0, 2.0}).median, 2.5);
+  EXPECT_DOUBLE_EQ(distributionOf({}).max, 0.0);
+}
+
+TEST(AtomicFile, IsThereCompleteOrNotAtAll) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("result.json");
+  { const AtomicFile abandoned(path); }
+  EXPECT_EQ(directory.size(), 0u);
+  {
+    AtomicFile file(path);
+    EXPECT_EQ(contentOf(path), "");
+    file.write("all of it");
+  }
+  EXPECT_EQ(contentOf(path), "all of it");
+  EXPECT_EQ(directory.size(), 1u);
+  EXPECT_THROW(AtomicFile(directory.file("missing/result.json")), std::runtime_error);
+  EXPECT_THROW(AtomicFile(directory.file("")), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace swarm_planner
