@@ -26,8 +26,8 @@ MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal,
                                const Vector3& apart) {
   MovingBody body;
   body.motion_ = &motion;
-  body.distance_ = horizontal;
-  body.vertical_scale_ = horizontal / vertical;
+  body.distance_ = std::min(horizontal, vertical);
+  body.scale_ = body.distance_ * Vector3(1.0 / horizontal, 1.0 / horizontal, 1.0 / vertical);
   body.apart_ = apart;
   body.radius_ = std::max(horizontal, vertical);
   const Vector3 extent(horizontal, horizontal, vertical);
@@ -38,11 +38,11 @@ MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal,
 
 HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
   if (motion_ != nullptr) {
-    // In coordinates stretched along z the ellipsoid is a ball.
-    const Vector3 stretched(r.x(), r.y(), vertical_scale_ * r.z());
-    const double length = stretched.norm();
-    const Vector3 direction = length > 1e-9 ? Vector3(stretched / length) : apart_;
-    return {Vector3(direction.x(), direction.y(), vertical_scale_ * direction.z()), distance_};
+    // In coordinates shrunk to the ellipsoid's shorter semi-axis it is a ball, and no distance is longer there.
+    const Vector3 shrunk = scale_.cwiseProduct(r);
+    const double length = shrunk.norm();
+    const Vector3 direction = length > 1e-9 ? Vector3(shrunk / length) : apart_;
+    return {scale_.cwiseProduct(direction), distance_};
   }
   const Gauge gauge = obstacle_->gauge(r, level_);
   const double steepness = gauge.gradient.norm();
@@ -50,7 +50,8 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
 }
 
 void MovingBody::relieve(const Vector3& r, double margin) {
-  relief_ = std::clamp(-supportingHalfSpace(r).clearance(r), 0.0, margin);
+  // Where the ellipsoid is long the clearance counts less than metres: so much of it costs the margin there.
+  relief_ = std::clamp(-supportingHalfSpace(r).clearance(r), 0.0, scale_.minCoeff() * margin);
 }
 
 SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points) {

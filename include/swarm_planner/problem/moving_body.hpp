@@ -8,7 +8,7 @@ namespace swarm_planner {
 
 /// n . r >= offset for a position r relative to a body's reference point [m].
 struct HalfSpace {
-  Vector3 n = Vector3::UnitZ();
+  Vector3 n = Vector3::UnitZ();  ///< of length 1 at most
   double offset = 0.0;
 
   /// Positive inside the half-space; a lower bound of the distance to what it keeps clear of.
@@ -48,7 +48,7 @@ class MovingBody {
   const Box& box() const { return box_; }
   /// Radius about the reference point that contains what must be kept clear of [m].
   double radius() const { return radius_; }
-  /// The distance to keep, without the body's own size [m].
+  /// The distance to keep, without the body's own size [m]; of a UAV the shorter semi-axis.
   double distance() const { return distance_; }
 
  private:
@@ -59,7 +59,7 @@ class MovingBody {
   Vector3 step_ = Vector3::Zero();  ///< of an obstacle's centre per stage [m]
   double level_ = 1.0;
   double distance_ = 0.0;
-  double vertical_scale_ = 1.0;  ///< horizontal over vertical semi-axis
+  Vector3 scale_ = Vector3::Ones();  ///< shorter semi-axis over each semi-axis of a pair ellipsoid
   double radius_ = 0.0;
   double relief_ = 0.0;
   Vector3 apart_ = Vector3::UnitX();
