@@ -22,17 +22,33 @@ std::string pairFault(const ScenarioUav& first, const ScenarioUav& second, const
   return text.str();
 }
 
-/// UAVs that start too close to each other, eq. (14). Sorted along x, so that large swarms need not compare all pairs.
+/// The axis along which the starts spread most.
+int widestAxis(const std::vector<ScenarioUav>& uavs) {
+  Vector3 low = uavs.front().start;
+  Vector3 high = low;
+  for (const ScenarioUav& uav : uavs) {
+    low = low.cwiseMin(uav.start);
+    high = high.cwiseMax(uav.start);
+  }
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  return axis;
+}
+
+/// UAVs that start too close to each other, eq. (14). Sorted along one axis, so that in large swarms only near ones
+/// are compared.
 void checkPairs(const std::vector<ScenarioUav>& uavs, const LimitParameters& limits, const std::string& source,
                 Faults& faults) {
+  const int axis = widestAxis(uavs);
+  const double reach = axis == 2 ? limits.pair_distance_vertical : limits.pair_distance;
   std::vector<std::size_t> order(uavs.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return uavs[i].start.x() < uavs[j].start.x(); });
+            [&](std::size_t i, std::size_t j) { return uavs[i].start[axis] < uavs[j].start[axis]; });
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Vector3 d = uavs[order[j]].start - uavs[order[i]].start;
-      if (d.x() >= limits.pair_distance) break;
+      if (d[axis] >= reach) break;
       if (pairGauge(d, limits) >= 1.0) continue;
       const auto [first, second] = std::minmax(order[i], order[j]);
       faults.add(source, startKey(second), pairFault(uavs[first], uavs[second], limits));

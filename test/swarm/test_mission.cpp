@@ -95,15 +95,18 @@ TEST(Mission, TakesTheVerticalDistanceForPairsAboveEachOther) {
   EXPECT_TRUE(contains(faultsOf(scenario), "alpha and bravo"));
 }
 
-TEST(Mission, FindsEveryClosePair) {
-  Scenario scenario = soundScenario();
-  scenario.uavs.clear();
-  for (int i = 0; i < 30; ++i) {
-    // Shuffled along x, each within 2 m of its two neighbours only.
-    const int place = (i * 7) % 30;
-    scenario.uavs.push_back(uavAt("uav" + std::to_string(i), Vector3(-1.5 * place, 20, 10)));
+TEST(Mission, FindsEveryClosePairAlongAnyAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    Scenario scenario = soundScenario();
+    scenario.uavs.clear();
+    for (int i = 0; i < 30; ++i) {
+      // Shuffled along the axis, each within 2 m of its two neighbours only.
+      Vector3 start(-40, 20, 10);
+      start[axis] += 1.5 * ((i * 7) % 30);
+      scenario.uavs.push_back(uavAt("uav" + std::to_string(i), start));
+    }
+    EXPECT_EQ(count(faultsOf(scenario), " start 1.5 m apart"), 29U) << "axis " << axis;
   }
-  EXPECT_EQ(count(faultsOf(scenario), " start 1.5 m apart"), 29U);
 }
 
 TEST(Mission, RefusesUavsOnTopOfEachOther) {

@@ -11,7 +11,10 @@ namespace swarm_planner {
 /// sqrt((d_xy / pair_distance)^2 + (d_z / pair_distance_vertical)^2). Below 1: too close.
 /// `d`: one centre minus the other [m]; both semi-axes [m] > 0.
 inline double pairGauge(const Vector3& d, double pair_distance, double pair_distance_vertical) {
-  return std::hypot(std::hypot(d.x(), d.y()) / pair_distance, d.z() / pair_distance_vertical);
+  const double x = d.x() / pair_distance;
+  const double y = d.y() / pair_distance;
+  const double z = d.z() / pair_distance_vertical;
+  return std::sqrt(x * x + y * y + z * z);
 }
 
 /// The same with the distances of `limits` (without tracking_margin: the distances that are measured).
