@@ -56,7 +56,8 @@ void MovingBody::relieve(const Vector3& r, double margin) {
 
 SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points) {
   SegmentPoints relative;
-  for (int i = 0; i < 4; ++i) relative[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)] - body.point(k, i);
+  for (int i = 0; i < 4; ++i)
+    relative[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)] - body.point(k, i);
   return relative;
 }
 
@@ -67,7 +68,8 @@ SegmentClearance segmentClearance(const MovingBody& body, int k, const SegmentPo
   result.half_space = body.supportingHalfSpace(midpoint(relative));
   result.half_space.offset -= body.relief(k);
   result.clearance = result.half_space.clearance(relative[0]);
-  for (std::size_t i = 1; i < 4; ++i) result.clearance = std::min(result.clearance, result.half_space.clearance(relative[i]));
+  for (std::size_t i = 1; i < 4; ++i)
+    result.clearance = std::min(result.clearance, result.half_space.clearance(relative[i]));
   return result;
 }
 

@@ -40,7 +40,8 @@ std::optional<PassingSide> PassingSide::choose(const MovingBody& body, const Seg
   if (motion.norm() < kMinMotion) return std::nullopt;
   const Vector3 along = motion.normalized();
   const Vector3 across = along.cross(upward());
-  const Vector3 right = across.norm() > 1e-3 ? Vector3(across.normalized()) : Vector3(std::copysign(1.0, along.z()) * Vector3::UnitY());
+  const Vector3 right =
+      across.norm() > 1e-3 ? Vector3(across.normalized()) : Vector3(std::copysign(1.0, along.z()) * Vector3::UnitY());
   const Vector3 above = right.cross(along);
   const Vector3 r = midpoint(relative);
   const Vector3 origin = r.dot(along) * along;

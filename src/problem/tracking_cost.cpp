@@ -60,12 +60,14 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
   StageCost cost;
   cost.value = dt * (weights.alpha * across * across + weights.beta * above * above +
                      weights.eta * behind.squaredNorm() + velocity_weight * slower.squaredNorm());
-  cost.position_gradient = 2.0 * dt * (weights.alpha * across * frame.horizontal +
-                                       weights.beta * above * frame.vertical + weights.eta * behind);
+  cost.position_gradient =
+      2.0 * dt *
+      (weights.alpha * across * frame.horizontal + weights.beta * above * frame.vertical + weights.eta * behind);
   cost.velocity_gradient = 2.0 * dt * velocity_weight * slower;
   cost.position_hessian =
-      2.0 * dt * (weights.alpha * frame.horizontal * frame.horizontal.transpose() +
-                  weights.beta * frame.vertical * frame.vertical.transpose() + weights.eta * Matrix3::Identity());
+      2.0 * dt *
+      (weights.alpha * frame.horizontal * frame.horizontal.transpose() +
+       weights.beta * frame.vertical * frame.vertical.transpose() + weights.eta * Matrix3::Identity());
   addRobustness(problem, stage, x.p, cost);
   return cost;
 }

@@ -73,7 +73,8 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan) {
   for (std::size_t k = 0; k < kHorizon; ++k) {
     addBoundViolations(problem.bounds, plan.knots[k + 1], plan.dt, violation);
     if (!bounded) continue;
-    addWorkspaceViolations(problem.bounds.workspace, segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt), violation);
+    addWorkspaceViolations(problem.bounds.workspace, segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt),
+                           violation);
   }
   const Box box = planBox(plan);
   for (const MovingBody& body : problem.bodies) {

@@ -23,22 +23,29 @@ void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d) {
   }
 }
 
-void addTangent(Qp& qp, int stage, Output output, const Vector3& value, const Vector3& centre, double limit) {
+/// The plane that touches |value + centre| <= limit towards `value`, if `value` is at least `from` of the limit.
+void addTangent(Qp& qp, int stage, Output output, const Vector3& value, const Vector3& centre, double limit,
+                double from) {
   const Vector3 outward = value + centre;
   const double norm = outward.norm();
-  if (!(norm > kNormBand * limit)) return;
+  if (!(norm > from * limit)) return;
   const Vector3 n = -outward / norm;
   qp.addRow(stage, output, n, -limit - n.dot(centre));
 }
 
-void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage, double dt, Qp& qp) {
+void addNormTangents(const FlightBounds& bounds, const KinematicState& x, int stage, double from, Qp& qp) {
   const Vector3 none = Vector3::Zero();
-  addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed);
-  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * dt * x.a, none, bounds.max_speed);
-  addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration);
-  const Vector3 thrust = x.a + bounds.drag_over_mass.cwiseProduct(x.v);
-  addTangent(qp, stage, Output::kThrustAcceleration, thrust, bounds.gravity, bounds.max_thrust_acceleration);
-  if (thrust.z() < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
+  addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed, from);
+  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.dt * x.a, none, bounds.max_speed, from);
+  addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration, from);
+  addTangent(qp, stage, Output::kThrustAcceleration, x.a + bounds.drag_over_mass.cwiseProduct(x.v), bounds.gravity,
+             bounds.max_thrust_acceleration, from);
+}
+
+void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage, Qp& qp) {
+  addNormTangents(bounds, x, stage, kNormBand, qp);
+  const double vertical_thrust = x.a.z() + bounds.drag_over_mass.z() * x.v.z();
+  if (vertical_thrust < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
     qp.addRow(stage, Output::kThrustAcceleration, upward(), bounds.min_vertical_thrust);
   }
 }
@@ -58,7 +65,7 @@ void addWorkspaceRows(const Workspace& workspace, int k, const SegmentPoints& po
 struct Passage {
   std::array<SegmentPoints, kHorizon> relative;
   std::array<std::optional<SegmentClearance>, kHorizon> near;  ///< set where the segment lies within the band
-  int deepest = -1;                                             ///< segment that violates the distance most
+  int deepest = -1;                                            ///< segment that violates the distance most
 };
 
 void findPassage(const MovingBody& body, const Trajectory& iterate, double band, Passage& passage) {
@@ -85,8 +92,9 @@ void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajec
   if (passage.deepest > 0) {
     const auto i = static_cast<std::size_t>(passage.deepest);
     const double time = passage.deepest * iterate.dt;
-    side = PassingSide::choose(body, passage.relative[i], midpoint(passage.relative[i]) + body.point(passage.deepest, 0),
-                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+    side =
+        PassingSide::choose(body, passage.relative[i], midpoint(passage.relative[i]) + body.point(passage.deepest, 0),
+                            kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
   }
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
@@ -133,11 +141,17 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
     const auto i = static_cast<std::size_t>(k);
     const SegmentPoints points = segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt);
     for (const Vector3& point : points) box.include(point);
-    addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, iterate.dt, qp);
+    addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, qp);
     if (bounded) addWorkspaceRows(problem.bounds.workspace, k, points, band, qp);
   }
   for (const MovingBody& body : problem.bodies) {
     if (body.box().near(box, band)) addBodyRows(problem, body, iterate, band, qp);
+  }
+}
+
+void addNormCuts(const UavProblem& problem, const Trajectory& answer, Qp& qp) {
+  for (int k = 1; k <= kHorizon; ++k) {
+    addNormTangents(problem.bounds, answer.knots[static_cast<std::size_t>(k)], k, 1.0, qp);
   }
 }
 

@@ -14,6 +14,13 @@ namespace {
 constexpr std::array<double, 4> kStepLengths{1.0, 0.5, 0.25, 0.125};
 constexpr double kSampleBand = 2.0;  // width of the band that gets rows, in the way flown per stage at full speed
 
+/// Largest distance between the knots of two plans [m].
+double largestMove(const Trajectory& from, const Trajectory& to) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k <= kHorizon; ++k) largest = std::max(largest, (to.knots[k].p - from.knots[k].p).norm());
+  return largest;
+}
+
 }  // namespace
 
 SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
@@ -21,25 +28,38 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
 
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
   const SqpParameters& settings = problem.parameters->sqp;
-  const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
+  answers_.resize(static_cast<std::size_t>(settings.max_iterations));
   SqpResult result;
   double current_merit = merit(problem, plan);
   candidate_ = plan;
   while (result.iterations < settings.max_iterations) {
-    linearise(problem, plan, band, *qp_);
-    const QpStatus status = qp_solver_->solve(*qp_, *solution_);
+    const QpStatus status = solveQp(problem, plan, result.iterations);
     ++result.iterations;
     result.qp_iterations += solution_->iterations;
     if (status == QpStatus::kNotFinite) break;
     result.solved = true;
-    double moved = 0.0;
-    if (!acceptStep(problem, plan, current_merit, moved) || moved < settings.step_tolerance) break;
+    // A step that was cut short has met something that the QP did not know; what it met is in the next QP.
+    const double wanted = largestMove(plan, answers_[static_cast<std::size_t>(result.iterations - 1)]);
+    const double moved = acceptStep(problem, plan, current_merit);
+    if (wanted < settings.step_tolerance || (moved == 0.0 && result.iterations > 1)) break;
   }
   result.max_violation = planViolation(problem, plan).largest;
   return result;
 }
 
-bool SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit, double& moved) {
+QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, int iteration) {
+  const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
+  linearise(problem, plan, band, *qp_);
+  for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], *qp_);
+  const QpStatus status = qp_solver_->solve(*qp_, *solution_);
+  Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];
+  answer.dt = plan.dt;
+  answer.jerks = solution_->jerks;
+  rollOut(problem.start, answer);
+  return status;
+}
+
+double SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit) {
   for (const double length : kStepLengths) {
     for (std::size_t k = 0; k < kHorizon; ++k) {
       candidate_.jerks[k] = plan.jerks[k] + length * (solution_->jerks[k] - plan.jerks[k]);
@@ -47,15 +67,13 @@ bool SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, double& 
     rollOut(problem.start, candidate_);
     const double candidate_merit = merit(problem, candidate_);
     if (!(candidate_merit < current_merit)) continue;
-    for (std::size_t k = 0; k <= kHorizon; ++k) {
-      moved = std::max(moved, (candidate_.knots[k].p - plan.knots[k].p).norm());
-    }
+    const double moved = largestMove(plan, candidate_);
     plan.jerks = candidate_.jerks;
     plan.knots = candidate_.knots;
     current_merit = candidate_merit;
-    return true;
+    return moved;
   }
-  return false;
+  return 0.0;
 }
 
 }  // namespace swarm_planner

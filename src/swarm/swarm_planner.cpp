@@ -16,6 +16,8 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kClockTolerance = 0.05;  // odometry stamped later than this is from the future [s]
+/// Constraints met to a micrometre: what the solver leaves is far below the tracking margin.
+constexpr InteriorPointSolver::Settings kSolverSettings{40, 1e-6, 1e-6};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// What the planner keeps of one UAV between cycles.
@@ -57,7 +59,7 @@ class SwarmPlanner::Impl {
       : parameters(mission.parameters),
         workspace(mission.scenario.workspace),
         surroundings(parameters, mission.scenario.uavs.size()),
-        sqp(std::make_unique<InteriorPointSolver>()),
+        sqp(std::make_unique<InteriorPointSolver>(kSolverSettings)),
         judged(mission.scenario.uavs.size()) {
     for (const ScenarioUav& scenario_uav : mission.scenario.uavs) {
       Uav uav;
@@ -102,8 +104,8 @@ class SwarmPlanner::Impl {
   void judgeMeasurements(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const UavMeasurement none;
-      judged[i] = judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now,
-                        parameters.input.odometry_timeout);
+      judged[i] =
+          judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now, parameters.input.odometry_timeout);
       UavReport& uav_report = report.uavs[i];
       uav_report = UavReport();
       uav_report.obstacle_clearance = uav_report.pair_distance = kInfinity;

@@ -79,7 +79,8 @@ inline bool isBeyond(const SegmentPoints& relative, double distance) {
   return box.min.cwiseMax(-box.max).cwiseMax(0.0).squaredNorm() > distance * distance;
 }
 
-/// How segment k lies to a body: the half-space, less what is waived, towards its middle and the least clearance of its control points.
+/// How segment k lies to a body: the half-space, less what is waived, towards its middle and the least clearance of its
+/// control points.
 struct SegmentClearance {
   HalfSpace half_space;
   double clearance = 0.0;  ///< lower bound over the whole segment [m], negative if violated

@@ -13,13 +13,13 @@ namespace swarm_planner {
 
 /// Bounds that every stage of a plan keeps, besides the bodies around it.
 struct FlightBounds {
-  double max_speed = 0.0;                ///< |v| [m/s]
-  double max_acceleration = 0.0;         ///< |a| [m/s^2], may be infinite
-  double max_thrust_acceleration = 0.0;  ///< |A + g e3|, T_max / M of (6) [m/s^2]
-  double min_vertical_thrust = 0.0;      ///< A_z, so that A_z + g >= min_thrust_ratio g [m/s^2]
+  double max_speed = 0.0;                    ///< |v| [m/s]
+  double max_acceleration = 0.0;             ///< |a| [m/s^2], may be infinite
+  double max_thrust_acceleration = 0.0;      ///< |A + g e3|, T_max / M of (6) [m/s^2]
+  double min_vertical_thrust = 0.0;          ///< A_z, so that A_z + g >= min_thrust_ratio g [m/s^2]
   Vector3 drag_over_mass = Vector3::Zero();  ///< of A = a + k_d / M v, eq. (3) [1/s]
-  Vector3 gravity = Vector3::Zero();     ///< g e3 [m/s^2]
-  Workspace workspace;                   ///< infinite where the scenario has none
+  Vector3 gravity = Vector3::Zero();         ///< g e3 [m/s^2]
+  Workspace workspace;                       ///< infinite where the scenario has none
 
   FlightBounds() = default;
   FlightBounds(const Parameters& parameters, const Workspace* scenario_workspace);
@@ -31,10 +31,10 @@ struct UavProblem {
   const Parameters* parameters = nullptr;
   const ReferencePath* path = nullptr;
   FlightBounds bounds;
-  double progress = 0.0;   ///< arc length near which the start's foot on the path lies [m]
-  KinematicState start;    ///< at the epoch
-  double epoch = 0.0;      ///< [s]
-  double dt = 0.0;         ///< [s]
+  double progress = 0.0;                          ///< arc length near which the start's foot on the path lies [m]
+  KinematicState start;                           ///< at the epoch
+  double epoch = 0.0;                             ///< [s]
+  double dt = 0.0;                                ///< [s]
   std::array<TargetState, kHorizon + 1> targets;  ///< of each stage
   std::vector<MovingBody> bodies;                 ///< whatever can be reached within the horizon
 };

@@ -34,10 +34,12 @@ class RiccatiRecursion {
   void solve(const StageGradients& gradients, Trajectory& step);
 
  private:
+  using HalfGain = Eigen::Matrix<double, 3, 9, Eigen::RowMajor>;
+
   double dt_ = 0.0;
   std::array<Matrix9, kHorizon + 1> hessians_;
-  std::array<Eigen::LLT<Matrix3>, kHorizon> pivots_;              ///< L L' = w I + B' P B
-  std::array<Eigen::Matrix<double, 3, 9>, kHorizon> half_gains_;  ///< L^-1 B' P A: j = -L^-T (half_gain x + ...)
+  std::array<Eigen::LLT<Matrix3>, kHorizon> pivots_;  ///< L L' = w I + B' P B
+  std::array<HalfGain, kHorizon> half_gains_;         ///< L^-1 B' P A: j = -L^-T (half_gain x + ...)
 };
 
 }  // namespace swarm_planner

@@ -11,4 +11,8 @@ namespace swarm_planner {
 /// lies within `band` [m] of the iterate gets rows.
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp);
 
+/// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the
+/// iterate alone, the next answer may swing sideways past the limit.
+void addNormCuts(const UavProblem& problem, const Trajectory& answer, Qp& qp);
+
 }  // namespace swarm_planner

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/qp.hpp"
@@ -10,9 +11,9 @@ namespace swarm_planner {
 
 /// How an SQP run ended.
 struct SqpResult {
-  bool solved = false;      ///< at least one QP had an answer; otherwise the plan is the initial guess
-  int iterations = 0;       ///< QPs solved
-  int qp_iterations = 0;    ///< of the QP solver, in total
+  bool solved = false;         ///< at least one QP had an answer; otherwise the plan is the initial guess
+  int iterations = 0;          ///< QPs solved
+  int qp_iterations = 0;       ///< of the QP solver, in total
   double max_violation = 0.0;  ///< largest violated constraint of the plan [m, m/s, m/s^2]
 };
 
@@ -26,12 +27,15 @@ class SqpSolver {
   SqpResult solve(const UavProblem& problem, Trajectory& plan);
 
  private:
-  /// Moves `plan` towards the QP's answer as far as the merit decreases; true if it moved.
-  bool acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit, double& moved);
+  /// Poses the QP at `plan`, with the cuts that the earlier answers of this run call for, and solves it.
+  QpStatus solveQp(const UavProblem& problem, const Trajectory& plan, int iteration);
+  /// Moves `plan` towards the QP's answer as far as the merit decreases. Returns how far any knot moved [m].
+  double acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit);
 
   std::unique_ptr<QpSolver> qp_solver_;
   std::unique_ptr<Qp> qp_;
   std::unique_ptr<QpSolution> solution_;
+  std::vector<Trajectory> answers_;  ///< of this run's QPs
   Trajectory candidate_;
 };
 

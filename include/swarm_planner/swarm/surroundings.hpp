@@ -34,7 +34,7 @@ class Surroundings {
   const Parameters& parameters_;
   std::vector<Superellipsoid> obstacles_;  ///< at the epoch
   std::vector<PredictedMotion> motions_;
-  std::vector<char> known_;                ///< whether motions_[uav] holds
+  std::vector<char> known_;  ///< whether motions_[uav] holds
 };
 
 }  // namespace swarm_planner

@@ -23,25 +23,32 @@ struct UavMeasurement {
 
 /// All that one cycle looks at. Sized once; filled anew each cycle.
 struct Snapshot {
-  double now = 0.0;                       ///< [s]
-  std::vector<UavMeasurement> uavs;       ///< one per UAV, in the scenario's order
+  double now = 0.0;                  ///< [s]
+  std::vector<UavMeasurement> uavs;  ///< one per UAV, in the scenario's order
   std::vector<TrackedObstacle> obstacles;
 };
 
 /// State of a UAV as PlannerStatus reports it (same numbers as the message's constants).
-enum class UavState : std::uint8_t { kTracking = 0, kHolding = 1, kFallback = 2, kLost = 3, kLanding = 4, kStopped = 5 };
+enum class UavState : std::uint8_t {
+  kTracking = 0,
+  kHolding = 1,
+  kFallback = 2,
+  kLost = 3,
+  kLanding = 4,
+  kStopped = 5
+};
 
 /// Why a UAV is in its state.
 enum class Reason : std::uint8_t {
   kNone,
-  kWaitingForOdometry,    ///< this UAV's odometry has never arrived
-  kWaitingForOthers,      ///< another UAV's odometry has never arrived
-  kWaitingForStart,       ///< autostart is off
-  kOdometryStale,         ///< older than odometry_timeout
+  kWaitingForOdometry,  ///< this UAV's odometry has never arrived
+  kWaitingForOthers,    ///< another UAV's odometry has never arrived
+  kWaitingForStart,     ///< autostart is off
+  kOdometryStale,       ///< older than odometry_timeout
   kOdometryFromFuture,
   kOdometryNotFinite,
-  kConstraintsViolated,   ///< the newest plan needs slack
-  kSolverFailed,          ///< the QP had no answer; the committed plan goes on
+  kConstraintsViolated,  ///< the newest plan needs slack
+  kSolverFailed,         ///< the QP had no answer; the committed plan goes on
 };
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
@@ -51,23 +58,24 @@ const char* stateText(UavState state);
 struct UavReport {
   UavState state = UavState::kHolding;
   Reason reason = Reason::kWaitingForOdometry;
-  bool planned = false;         ///< a plan for this epoch stands and may be published
-  double solve_time = 0.0;      ///< [s] of wall clock
+  bool planned = false;     ///< a plan for this epoch stands and may be published
+  double solve_time = 0.0;  ///< [s] of wall clock
   int sqp_iterations = 0;
   int qp_iterations = 0;
-  double max_slack = 0.0;       ///< largest violation of a constraint by the plan [m]
-  double obstacle_clearance = 0.0;  ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
-  double pair_distance = 0.0;       ///< smallest predicted centre distance to another UAV [m]; +inf without
-  double lag = 0.0;                 ///< arc length from the UAV's foot on its reference to its target [m]
+  double max_slack = 0.0;  ///< largest violation of a constraint by the plan [m]
+  double obstacle_clearance =
+      0.0;                     ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
+  double pair_distance = 0.0;  ///< smallest predicted centre distance to another UAV [m]; +inf without
+  double lag = 0.0;            ///< arc length from the UAV's foot on its reference to its target [m]
 };
 
 /// Result of one cycle.
 struct CycleReport {
   std::uint64_t cycle = 0;
-  double epoch = 0.0;        ///< [s]
-  double time_zero = 0.0;    ///< epoch of t = 0 of the run; valid if started
+  double epoch = 0.0;      ///< [s]
+  double time_zero = 0.0;  ///< epoch of t = 0 of the run; valid if started
   bool started = false;
-  double cycle_time = 0.0;   ///< snapshot in, plans out [s] of wall clock
+  double cycle_time = 0.0;  ///< snapshot in, plans out [s] of wall clock
   std::vector<UavReport> uavs;
 };
 
