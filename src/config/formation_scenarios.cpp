@@ -30,7 +30,7 @@ EndCondition allAtGoal() {
 Vector3 jitter(UniformRandom& random) {
   constexpr double kMost = 0.1;  // [m] enough to break the symmetry
   Vector3 offset;
-  for (int axis = 0; axis < 3; ++axis) offset[axis] = roundedToMicro(random.real(-kMost, kMost));
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = random.real(-kMost, kMost);
   return offset;
 }
 

@@ -38,8 +38,8 @@ std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
 std::string unknownKeyMessage(const std::string& key, const std::vector<std::string>& known) {
   const std::string* closest = nullptr;
-  // A typing error changes a letter or two; more, in longer names.
-  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
+  // A typing error changes a letter or two; in a short name two changes make another word.
+  std::size_t least = (key.size() + 1) / 3 + 1;
   for (const std::string& candidate : known) {
     const std::size_t distance = editDistance(key, candidate);
     if (distance >= least) continue;
