@@ -9,6 +9,7 @@ namespace {
 
 constexpr int kDirections = 8;
 constexpr double kRightBonus = 0.1;  // of the distance to keep: decides draws, never a clear case
+constexpr double kLevelBonus = 0.01;  // likewise, between above and below
 constexpr double kMinMotion = 1e-3;  // relative motion over a segment below which there is no passage [m]
 
 /// How far a point must move from `origin` along `direction` to leave the body [m]; 0 if it is outside.
@@ -26,6 +27,15 @@ double wayOut(const MovingBody& body, const Vector3& origin, const Vector3& dire
     (clearance(middle) < 0.0 ? inside : outside) = middle;
   }
   return outside;
+}
+
+/// 1 or -1, opposite for opposite directions: eastbound is 1, as for flight levels.
+double eastbound(const Vector3& along) {
+  constexpr double kTurned = 1e-3;
+  for (int axis = 0; axis < 2; ++axis) {
+    if (std::abs(along[axis]) > kTurned) return std::copysign(1.0, along[axis]);
+  }
+  return std::copysign(1.0, along.z());
 }
 
 bool contains(const Workspace& workspace, const Vector3& point) {
@@ -46,13 +56,15 @@ std::optional<PassingSide> PassingSide::choose(const MovingBody& body, const Seg
   const Vector3 r = midpoint(relative);
   const Vector3 origin = r.dot(along) * along;
 
+  const double level_bonus = kLevelBonus * eastbound(along);
+
   std::optional<PassingSide> best;
   double best_cost = reach;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * M_PI * i / kDirections;
     const Vector3 sideways = std::cos(angle) * right + std::sin(angle) * above;
     const double shift = wayOut(body, origin, sideways) - r.dot(sideways);
-    const double cost = shift - kRightBonus * body.distance() * std::cos(angle);
+    const double cost = shift - body.distance() * (kRightBonus * std::cos(angle) + level_bonus * std::sin(angle));
     if (cost >= best_cost || !contains(workspace, position + shift * sideways)) continue;
     best_cost = cost;
     best = PassingSide(along, sideways);

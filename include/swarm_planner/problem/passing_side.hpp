@@ -17,7 +17,8 @@ class PassingSide {
   /// Looks for the shortest way out across the relative motion, among eight directions. `relative`: the segment
   /// that runs deepest through the body; `position`: its middle in the planning frame; `reach` [m]: how far the UAV can
   /// move sideways until then. Directions that leave the workspace are not considered. A draw between the sides goes to
-  /// the right, for both of two UAVs that meet. None if no way out is within reach.
+  /// the right, one between above and below to above if eastbound: opposite ways for two UAVs that meet. None if no
+  /// way out is within reach.
   static std::optional<PassingSide> choose(const MovingBody& body, const SegmentPoints& relative,
                                            const Vector3& position, double reach, const Workspace& workspace);
 
