@@ -80,7 +80,7 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     if (!report.uavs[i].planned) continue;
     samplePlan(planner_.committed(i), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
-    vehicles_[i].receive(setpoints_);
+    if (!vehicles_[i].receive(setpoints_)) ++result_.fallbacks["the vehicle refused the trajectory"];
   }
   record(report);
   for (RunObserver* observer : observers) observer->onCycle(epoch, report);

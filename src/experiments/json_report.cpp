@@ -87,7 +87,7 @@ JsonObject toObject(const RunResult& run) {
       .add("uav_ms", toObject(run.uav_ms))
       .add("sqp_iterations", toObject(run.sqp_iterations))
       .add("qp_iterations", toObject(run.qp_iterations))
-      .addCount("kkt_nonzeros", run.kkt_nonzeros)
+      .addCount("kkt_nonzeros", static_cast<unsigned long long>(run.kkt_nonzeros))
       .add("min_uav_distance_m", flown.min_uav_distance)
       .add("min_obstacle_clearance_m", flown.min_obstacle_clearance)
       .addCount("collisions", flown.collisions.size())

@@ -26,7 +26,7 @@ class StraightPlanner : public CyclePlanner {
     for (std::size_t i = 0; i < plans_.size(); ++i) {
       KinematicState start;
       start.p = snapshot.uavs[i].p + (epoch - snapshot.now) * snapshot.uavs[i].v;
-      start.v = kSpeed * Vector3::UnitX();
+      start.v = speed * Vector3::UnitX();
       plans_[i].epoch = epoch;
       plans_[i].dt = 0.3;
       plans_[i].jerks.fill(Vector3::Zero());
@@ -40,6 +40,7 @@ class StraightPlanner : public CyclePlanner {
 
   UavReport uav_report;
   double cycle_time = 0.001;
+  double speed = kSpeed;
   std::size_t not_planned = 1000;
   std::vector<Snapshot> snapshots;
   std::vector<double> epochs;
@@ -139,6 +140,16 @@ TEST(ClosedLoopRun, AUavWithoutAPlanHovers) {
   planner.not_planned = 0;
   Recorder recorder;
   ClosedLoopRun(mission, planner, 0).fly({&recorder});
+  EXPECT_LT((recorder.positions.back() - mission.scenario.uavs[0].start).norm(), 1e-9);
+}
+
+TEST(ClosedLoopRun, APlanThatCannotBeFlownIsCountedAndNotFlown) {
+  const Mission mission = twoUavs(2.6);
+  StraightPlanner planner(2);
+  planner.speed = std::nan("");
+  Recorder recorder;
+  const RunResult result = ClosedLoopRun(mission, planner, 0).fly({&recorder});
+  EXPECT_EQ(result.fallbacks.at("the vehicle refused the trajectory"), 20u);
   EXPECT_LT((recorder.positions.back() - mission.scenario.uavs[0].start).norm(), 1e-9);
 }
 
