@@ -1,49 +1,53 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/obstacles/power_sum.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace swarm_planner {
 
 namespace {
 
-/// At least level^(1 / exponent). Bernoulli's inequality is tight for the levels near 1 that occur in flight and
-/// spares a std::pow; far from 1 it would start Newton too far away.
-double rootBound(double level, double exponent) {
-  constexpr double kTight = 2.0;
-  return level <= kTight ? 1.0 + (level - 1.0) / exponent : std::pow(level, 1.0 / exponent);
+/// An upper bound of the root, or nearly one, from which no power overflows.
+double startingPoint(const std::array<double, 3>& terms, const std::array<Exponent, 3>& exponents, std::size_t largest,
+                     double level) {
+  // The levels of flight are close above 1. There Bernoulli's inequality level^(1/p) <= 1 + (level - 1) / p is tight.
+  constexpr double kCloseAbove = 2.0;
+  if (level <= kCloseAbove) return 1.0 + (level - 1.0) / exponents[largest].value();
+  double bound = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < 3; ++i) bound = std::min(bound, std::pow(level / terms[i], 1.0 / exponents[i].value()));
+  return bound;
 }
 
 }  // namespace
 
-double solveIntegerPowerSum(const std::array<double, 3>& y, const std::array<Exponent, 3>& exponents, double level) {
-  /// Relative; the error after a step is about the exponent times the step squared.
-  constexpr double kStepTolerance = 1e-9;
+double solveIntegerPowerSum(const std::array<double, 3>& terms, const std::array<Exponent, 3>& exponents,
+                            std::size_t largest, double level) {
+  /// Relative; the error after a step is about the square of the exponent times the third power of the step.
+  constexpr double kStepTolerance = 1e-6;
 
-  // Axes with equal exponents share one term: count terms, coefficients c_k of v^{p_k}.
-  std::array<double, 3> coefficients{};
-  std::array<Exponent, 3> distinct;
-  std::size_t count = 0;
-  double v = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (y[i] == 0.0) continue;
-    v = std::min(v, rootBound(level, exponents[i].value()) / y[i]);
-    std::size_t k = 0;
-    while (k < count && distinct[k].value() != exponents[i].value()) ++k;
-    if (k == count) distinct[count++] = exponents[i];
-    coefficients[k] += exponents[i].power(y[i]);
-  }
-
+  double v = startingPoint(terms, exponents, largest, level);
   for (int step = 0; step < kMaxPowerSumSteps; ++step) {
     double sum = 0.0;
-    double slope = 0.0;  // times v
-    for (std::size_t k = 0; k < count; ++k) {
-      const double term = coefficients[k] * distinct[k].power(v);
+    double first = 0.0;  // derivatives of the sum with respect to ln v
+    double second = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double p = exponents[i].value();
+      const double term = terms[i] * exponents[i].power(v);
       sum += term;
-      slope += distinct[k].value() * term;
+      first += p * term;
+      second += p * p * term;
     }
-    const double decrease = (sum - level) / slope;  // relative to v
-    v -= decrease * v;
+    // Halley's step for ln sum = ln level, which is nearly linear in ln v, over one denominator: divisions would cost
+    // the most. 2 (sum - level) / (sum + level) stands for the logarithm and 1 - x + x^2 / 2 for the exponential: both
+    // are exact to the second order. Far from the root the step falls back to half a denominator, at most twice
+    // Newton's.
+    const double excess = 2.0 * (sum - level);
+    const double newton = first * first * (sum + level);
+    const double halley = newton - 0.5 * excess * (second * sum - first * first);
+    const double decrease = sum * excess * first / std::max(0.5 * newton, halley);
+    v *= 1.0 - decrease * (1.0 - 0.5 * decrease);
     if (std::abs(decrease) < kStepTolerance) break;
   }
   return v;

@@ -129,12 +129,26 @@ Gauge Superellipsoid::gaugeAtCenter(double level) const {
   return gauge;
 }
 
+Gauge Superellipsoid::ellipsoidGauge(const Vector3& body, double squared_norm, double level) const {
+  Gauge gauge;
+  gauge.value = std::sqrt(squared_norm / level);
+  gauge.gradient = body.cwiseProduct(inverse_radii_).cwiseProduct(inverse_radii_) / (gauge.value * level);
+  return gauge;
+}
+
 Gauge Superellipsoid::bodyGauge(const Vector3& body, double level) const {
   const Vector3 x = body.cwiseAbs().cwiseProduct(inverse_radii_);
+  if (shape_ == Shape::kEllipsoid) {
+    constexpr double kUnderflow = 1e-200;  // below it squares lose digits
+    const double squared_norm = x.squaredNorm();
+    if (squared_norm > kUnderflow) return ellipsoidGauge(body, squared_norm, level);
+  }
+
   // Scaled by the largest coordinate no power overflows, however far the point.
-  const double scale = x.maxCoeff();
+  int largest = 0;
+  const double scale = x.maxCoeff(&largest);
   if (scale == 0.0) return gaugeAtCenter(level);
-  const std::array<double, 3> y{x[0] / scale, x[1] / scale, x[2] / scale};
+  const Vector3 y = x / scale;
 
   // v = scale / phi solves sum (y_i v)^p_i = level.
   double v = 0.0;
@@ -148,15 +162,12 @@ Gauge Superellipsoid::bodyGauge(const Vector3& body, double level) const {
     v = std::exp(root.sigma);
     terms = root.terms;
   } else {
-    for (std::size_t i = 0; i < 3; ++i) terms[i] = powers_[i].power(y[i]);
-    const double ratio = level / (terms[0] + terms[1] + terms[2]);
-    if (shape_ == Shape::kEllipsoid) {
-      v = std::sqrt(ratio);
-    } else if (shape_ == Shape::kEqualExponents) {
-      v = std::pow(ratio, 1.0 / exponents_[0]);
-    } else {
-      v = solveIntegerPowerSum(y, powers_, level);
+    for (std::size_t i = 0; i < 3; ++i) terms[i] = powers_[i].power(y[static_cast<int>(i)]);
+    if (shape_ == Shape::kSmallIntegers) {
+      v = solveIntegerPowerSum(terms, powers_, static_cast<std::size_t>(largest), level);
       for (std::size_t i = 0; i < 3; ++i) terms[i] *= powers_[i].power(v);
+    } else {
+      v = powers_[0].root(level / (terms[0] + terms[1] + terms[2]));
     }
   }
 

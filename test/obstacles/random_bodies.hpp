@@ -18,7 +18,7 @@ inline Vector3 randomExponents(Random& random) {
     case 2:
       return Vector3(2.0, 2.0, random.integer(3, 12));
     case 3:
-      return Vector3(random.integer(2, 10), random.integer(2, 10), random.integer(2, 10));
+      return Vector3(random.integer(2, 10), random.integer(2, 10), random.integer(2, 33));
     case 4:
       return random.vector(2.0, 10.0);
     default: {

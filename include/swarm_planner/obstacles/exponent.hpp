@@ -30,6 +30,13 @@ class Exponent {
     return integer_ > 0 ? integerPower(x, integer_ - lowered) : std::pow(x, value_ - lowered);
   }
 
+  /// x^(1 / value), x >= 0.
+  double root(double x) const {
+    if (integer_ == 2) return std::sqrt(x);
+    if (integer_ == 4) return std::sqrt(std::sqrt(x));
+    return std::pow(x, 1.0 / value_);
+  }
+
  private:
   /// Beyond this std::pow is as fast and rounds better.
   static constexpr double kLargestInteger = 32.0;

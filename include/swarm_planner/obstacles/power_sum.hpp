@@ -9,14 +9,14 @@
 
 namespace swarm_planner {
 
-/// Largest number of Newton steps of the two solvers below. Both iterations are monotone, so the cap is met only
-/// for arguments that are not finite.
+/// Largest number of steps of the two iterations below. They converge from their starting points, in three to five
+/// steps: the cap is met only for arguments that are not finite.
 constexpr int kMaxPowerSumSteps = 100;
 
-/// The v > 0 with sum_i (y_i v)^p_i = level, for small integer exponents.
-/// `y` >= 0 with largest entry 1, `level` >= 1. Newton from an upper bound on a convex increasing function:
-/// monotone, no overflow.
-double solveIntegerPowerSum(const std::array<double, 3>& y, const std::array<Exponent, 3>& exponents, double level);
+/// The v > 0 with sum_i terms_i v^p_i = level, for small integer exponents. terms_i = y_i^p_i with 0 <= y_i <= 1 and
+/// y_largest = 1; `level` >= 1.
+double solveIntegerPowerSum(const std::array<double, 3>& terms, const std::array<Exponent, 3>& exponents,
+                            std::size_t largest, double level);
 
 /// Solution of the equation below with its terms.
 template <std::size_t N>

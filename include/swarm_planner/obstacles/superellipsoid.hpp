@@ -66,6 +66,8 @@ class Superellipsoid {
   /// The gauge's value and gradient in the body frame.
   Gauge bodyGauge(const Vector3& body, double level) const;
   Gauge gaugeAtCenter(double level) const;
+  /// All exponents 2; `squared_norm` of the offset over the radii.
+  Gauge ellipsoidGauge(const Vector3& body, double squared_norm, double level) const;
 
   int id_ = 0;
   Vector3 center_ = Vector3::Zero();
