@@ -22,12 +22,11 @@ build_packages=(
   libros-rosgraph-msgs-dev
   librostest-dev
   libstd-msgs-dev
-  libstd-srvs-dev
   libtf2-dev
-  libtf2-geometry-msgs-dev
   libtf2-ros-dev
   libtrajectory-msgs-dev
   libvisualization-msgs-dev
+  libxmlrpcpp-dev
   libyaml-cpp-dev
   ninja-build
   python3-roslaunch
