@@ -26,25 +26,31 @@ struct LogPowerSum {
 };
 
 /// The sigma with sum_i exp(log_coefficients_i + exponents_i sigma) = 1, exponents > 0, any real exponents.
-/// Coefficients may be -infinity, but not all. Newton on the logarithm of the sum, which is convex, increasing and
-/// nearly linear: monotone from its upper bound, in three to five steps for exponents from 2 to 1000.
+/// Coefficients may be -infinity, but not all. Halley's iteration on the logarithm of the sum, which is convex,
+/// increasing and nearly linear, from an upper bound.
 template <std::size_t N>
 LogPowerSum<N> solveLogPowerSum(const std::array<double, N>& log_coefficients, const std::array<double, N>& exponents) {
-  /// The error after a step is about the curvature (exponent^2 at most) times the step squared.
-  constexpr double kStepTolerance = 1e-10;
+  /// The error after a step is about the square of the exponent times the third power of the step.
+  constexpr double kStepTolerance = 1e-7;
   LogPowerSum<N> solution;
   double& sigma = solution.sigma;
   sigma = -log_coefficients[0] / exponents[0];
   for (std::size_t i = 1; i < N; ++i) sigma = std::min(sigma, -log_coefficients[i] / exponents[i]);
   for (int step = 0; step < kMaxPowerSumSteps; ++step) {
     double sum = 0.0;
-    double slope = 0.0;
+    double first = 0.0;  // derivatives of the sum
+    double second = 0.0;
     for (std::size_t i = 0; i < N; ++i) {
       const double term = std::exp(log_coefficients[i] + exponents[i] * sigma);
       sum += term;
-      slope += exponents[i] * term;
+      first += exponents[i] * term;
+      second += exponents[i] * exponents[i] * term;
     }
-    const double decrease = std::log(sum) * sum / slope;
+    // Where exponents differ much the curvature is no guide: the step is at most twice Newton's.
+    const double excess = std::log(sum);
+    const double newton = first * first;
+    const double halley = newton - 0.5 * excess * (second * sum - newton);
+    const double decrease = excess * sum * first / std::max(0.5 * newton, halley);
     sigma -= decrease;
     if (std::abs(decrease) < kStepTolerance) break;
   }
