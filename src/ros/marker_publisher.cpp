@@ -14,8 +14,8 @@ namespace {
 // What does not move is sent once in so long, for viewers that join late [s].
 constexpr double kRefreshPeriod = 1.0;
 // Of the scene's diagonal: wide enough to be seen when the whole scene is in view.
-constexpr double kUavShare = 0.015;
-constexpr double kTextShare = 0.03;
+constexpr double kUavShare = 0.02;
+constexpr double kTextShare = 0.022;
 constexpr double kLookAheadShare = 0.3;
 
 double drawnUavWidth(const Mission& mission, double wanted, double diagonal) {
@@ -67,7 +67,6 @@ void MarkerPublisher::clear() {
 }
 
 void MarkerPublisher::publish() {
-  if (publisher_.getNumSubscribers() == 0) return;
   const double now = toSeconds(ros::Time::now());
   markers_.begin(toRosTime(now));
   std::vector<UavDrawing> uavs;
@@ -88,7 +87,8 @@ void MarkerPublisher::publish() {
   const bool everything = wall >= next_refresh_;
   if (everything) next_refresh_ = wall + kRefreshPeriod;
 
-  locate(now, uavs);
+  locate(now, uavs);  // trails grow also while nobody looks
+  if (publisher_.getNumSubscribers() == 0) return;
   for (std::size_t uav = 0; uav < uavs.size(); ++uav) {
     const int index = static_cast<int>(uav);
     markers_.addUav(index, uavs[uav]);
@@ -96,8 +96,7 @@ void MarkerPublisher::publish() {
     if (everything && uavs[uav].targeted) markers_.addReference(index, uavs[uav].reference, until);
   }
   drawObstacles(now, everything);
-  const Vector3 above(box_.center().x(), box_.center().y(), box_.max().z() + 2.0 * sizes_.text);
-  markers_.addStatus(above, text);
+  markers_.addStatus(statusPosition(box_), text);
   publisher_.publish(markers_.message());
 }
 

@@ -135,4 +135,10 @@ Eigen::AlignedBox3d sceneBox(const Scenario& scenario) {
   return box;
 }
 
+Vector3 statusPosition(const Eigen::AlignedBox3d& scene) {
+  constexpr double kHeightShare = 0.1;  // of the diagonal
+  const double top = scene.max().z() + kHeightShare * scene.diagonal().norm();
+  return Vector3(scene.center().x(), scene.center().y(), top);
+}
+
 }  // namespace swarm_planner

@@ -15,7 +15,7 @@ using visualization_msgs::Marker;
 // Around an obstacle's equator.
 constexpr int kObstacleSlices = 40;
 // How far ahead a velocity arrow points [s].
-constexpr double kArrowTime = 2.0;
+constexpr double kArrowTime = 4.0;
 // Slower is shown as standing still [m/s].
 constexpr double kStandstill = 1e-3;
 
@@ -112,7 +112,7 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
 void SceneMarkers::addTarget(int index, const UavDrawing& uav) {
   Marker& target = add("target", index, Marker::SPHERE);
   target.pose.position = toPoint(uav.target.p);
-  setScale(Vector3::Constant(0.5 * sizes_.uav), target);
+  setScale(Vector3::Constant(0.6 * sizes_.uav), target);
   target.color = uavColor(index, 0.9F);
 }
 
@@ -133,7 +133,7 @@ void SceneMarkers::addObstacle(const TrackedObstacle& obstacle, double now) {
   surface.pose.position = toPoint(body.center());
   surface.pose.orientation = toQuaternionMessage(yawRotation(body.yaw()));
   setScale(Vector3::Ones(), surface);
-  surface.color = moves ? color(0.9F, 0.45F, 0.15F, 0.75F) : color(0.5F, 0.54F, 0.6F, 0.75F);
+  surface.color = moves ? color(1.0F, 0.6F, 0.25F, 0.8F) : color(0.75F, 0.79F, 0.85F, 0.8F);
 
   if (!moves) {
     add("velocity", body.id(), Marker::ARROW).action = Marker::DELETE;
@@ -142,7 +142,7 @@ void SceneMarkers::addObstacle(const TrackedObstacle& obstacle, double now) {
   Marker& arrow = add("velocity", body.id(), Marker::ARROW);
   const Vector3 top = body.center() + (body.radii().z() + 0.5 * sizes_.uav) * Vector3::UnitZ();
   arrow.points = {toPoint(top), toPoint(top + kArrowTime * body.velocity())};
-  setScale(sizes_.uav * Vector3(0.25, 0.6, 0.8), arrow);
+  setScale(sizes_.uav * Vector3(0.2, 0.5, 0.7), arrow);
   arrow.color = color(0.8F, 0.2F, 0.05F, 1.0F);
 }
 

@@ -26,4 +26,7 @@ std::vector<Vector3> dashes(const ReferencePath& path, double until, double dash
 /// The box that holds what a run shows [m]: starts, obstacles at t = 0, and references as far as the run goes.
 Eigen::AlignedBox3d sceneBox(const Scenario& scenario);
 
+/// Where the status line floats: above the middle of the scene, clear of it.
+Vector3 statusPosition(const Eigen::AlignedBox3d& scene);
+
 }  // namespace swarm_planner

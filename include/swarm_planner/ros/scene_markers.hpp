@@ -47,7 +47,7 @@ class SceneMarkers {
   void begin(const ros::Time& stamp);
   void addUav(int index, const UavDrawing& uav);
   void addReference(int index, const MovingTarget& reference, double until);
-  /// Surface, and an arrow of two seconds' flight if it moves. `now` [s]: where it has moved to.
+  /// Surface, and an arrow of four seconds' way if it moves. `now` [s]: where it has moved to.
   void addObstacle(const TrackedObstacle& obstacle, double now);
   void removeObstacle(int id);
   void addStatus(const Vector3& position, const std::string& text);
