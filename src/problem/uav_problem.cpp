@@ -48,6 +48,15 @@ void addBodyViolations(const MovingBody& body, const Trajectory& plan, Violation
   }
 }
 
+/// Lower bound of the distance from a point `r` relative to the centre to the surface S = 1 [m], which is what counts
+/// as clearance: eps_s belongs to the constraint (7) alone. Just some distance above `limit` if it is certainly above.
+double surfaceDistance(const Superellipsoid& obstacle, const Vector3& r, double limit) {
+  const double at_least = r.norm() - obstacle.boundingRadius();
+  if (at_least > limit) return at_least;
+  const Gauge gauge = obstacle.gauge(r);
+  return (gauge.value - 1.0) / gauge.gradient.norm();
+}
+
 }  // namespace
 
 FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenario_workspace) {
@@ -91,6 +100,7 @@ double merit(const UavProblem& problem, const Trajectory& plan) {
 }
 
 PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {
+  const double uav_radius = problem.parameters->limits.uav_radius;
   PredictedClearance least{kInfinity, kInfinity};
   for (const MovingBody& body : problem.bodies) {
     for (int k = 0; k <= kHorizon; ++k) {
@@ -98,9 +108,9 @@ PredictedClearance predictedClearance(const UavProblem& problem, const Trajector
       const Vector3 r = plan.knots[static_cast<std::size_t>(k)].p - reference;
       if (body.isUav()) {
         least.pair = std::min(least.pair, r.norm());
-      } else if (r.norm() - body.radius() < least.obstacle) {
-        const double kept = body.distance() - problem.parameters->limits.uav_radius;
-        least.obstacle = std::min(least.obstacle, body.supportingHalfSpace(r).clearance(r) + kept);
+      } else {
+        const double clearance = surfaceDistance(*body.obstacle(), r, least.obstacle + uav_radius) - uav_radius;
+        least.obstacle = std::min(least.obstacle, clearance);
       }
     }
   }
