@@ -170,6 +170,14 @@ void addSqp(TableBuilder& table) {
       "penalty of a violated constraint, quadratic part");
 }
 
+void addCompute(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, false);
+  table.wholeNumber(
+      "threads", Range::closed(1.0, 256.0), [](P& p) -> int& { return p.compute.threads; },
+      "UAVs planned at the same time; the plans do not depend on it");
+}
+
 void addInput(TableBuilder& table) {
   using P = Parameters;
   table.section(kPlannerFile, false);
@@ -267,6 +275,7 @@ const std::vector<ParameterEntry>& parameterEntries() {
     addTime(table);
     addCost(table);
     addSqp(table);
+    addCompute(table);
     addInput(table);
     addVehicle(table);
     addSimulation(table);

@@ -7,7 +7,12 @@
 namespace swarm_planner {
 
 Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count)
-    : parameters_(parameters), motions_(uav_count), known_(uav_count, 0) {}
+    : parameters_(parameters),
+      horizontal_(parameters.limits.pair_distance + parameters.limits.tracking_margin),
+      vertical_(parameters.limits.pair_distance_vertical + parameters.limits.tracking_margin),
+      motions_(uav_count),
+      known_(uav_count, 0),
+      areas_(uav_count) {}
 
 void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch) {
   obstacles_.clear();
@@ -17,26 +22,50 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
   }
 }
 
-void Surroundings::clearUavs() { std::fill(known_.begin(), known_.end(), 0); }
+void Surroundings::setUnknown(std::size_t uav) {
+  known_[uav] = 0;
+  areas_[uav] = Box();
+}
 
 void Surroundings::setPlan(std::size_t uav, const Trajectory& plan, double epoch) {
   predict(plan, epoch, parameters_.time.sampling_time, motions_[uav]);
   known_[uav] = 1;
+  areas_[uav] = motions_[uav].box;
 }
 
 void Surroundings::setResting(std::size_t uav, const Vector3& position) {
   predictResting(position, motions_[uav]);
   known_[uav] = 1;
+  areas_[uav] = motions_[uav].box;
+}
+
+void Surroundings::setPlanning(std::size_t uav, const KinematicState& start) {
+  const Box box = reach(start);
+  areas_[uav].include(box.min);
+  areas_[uav].include(box.max);
+}
+
+void Surroundings::findNeighbours() {
+  const Vector3 half = 0.5 * Vector3(horizontal_, horizontal_, vertical_);
+  for (Box& area : areas_) {
+    area.min -= half;
+    area.max += half;
+  }
+  neighbours_.build(areas_);
+}
+
+Box Surroundings::reach(const KinematicState& start) const {
+  const double speed = std::max(parameters_.limits.max_speed, start.v.norm());
+  const Vector3 extent = Vector3::Constant(speed * kHorizon * parameters_.time.sampling_time);
+  return {start.p - extent, start.p + extent};
 }
 
 void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
   problem.bodies.clear();
   if (!parameters_.limits.avoidance) return;
-  const double speed = std::max(problem.bounds.max_speed, problem.start.v.norm());
-  const Vector3 extent = Vector3::Constant(speed * kHorizon * problem.dt);
-  const Box reach{problem.start.p - extent, problem.start.p + extent};
-  collectObstacles(reach, problem);
-  collectUavs(uav, reach, problem);
+  const Box box = reach(problem.start);
+  collectObstacles(box, problem);
+  collectUavs(uav, box, problem);
 }
 
 void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const {
@@ -53,14 +82,12 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
 }
 
 void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const {
-  const LimitParameters& limits = parameters_.limits;
-  for (std::size_t other = 0; other < motions_.size(); ++other) {
-    if (other == uav || !known_[other]) continue;
-    MovingBody body = MovingBody::fromUav(motions_[other], limits.pair_distance + limits.tracking_margin,
-                                          limits.pair_distance_vertical + limits.tracking_margin,
+  for (const std::uint32_t other : neighbours_.of(uav)) {
+    const PredictedMotion& motion = motions_[other];
+    if (!known_[other] || !motion.box.near(reach, std::max(horizontal_, vertical_))) continue;
+    MovingBody body = MovingBody::fromUav(motion, horizontal_, vertical_,
                                           uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()));
-    if (!body.box().near(reach, 0.0)) continue;
-    body.relieve(problem.start.p - motions_[other].point(0, 0), limits.tracking_margin);
+    body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.tracking_margin);
     problem.bodies.push_back(body);
   }
 }

@@ -6,31 +6,17 @@
 #include <limits>
 #include <stdexcept>
 
-#include "swarm_planner/solver/interior_point.hpp"
-#include "swarm_planner/sqp/sqp_solver.hpp"
-#include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
+#include "swarm_planner/swarm/thread_team.hpp"
+#include "swarm_planner/swarm/uav_planner.hpp"
 
 namespace swarm_planner {
 namespace {
 
 constexpr double kClockTolerance = 0.05;  // odometry stamped later than this is from the future [s]
-/// Constraints met to a micrometre: what the solver leaves is far below the tracking margin.
-constexpr InteriorPointSolver::Settings kSolverSettings{40, 1e-6, 1e-6};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// What the planner keeps of one UAV between cycles.
-struct Uav {
-  std::string name;
-  MovingTarget reference;
-  bool reference_pending = true;  ///< its time zero is the next epoch
-  bool on_reference = false;      ///< progress holds
-  double progress = 0.0;          ///< arc length of the foot of the last start [m]
-  int plans = 0;                  ///< how many of committed, previous hold
-  Trajectory committed;
-  Trajectory previous;
-};
 
 /// Why a measurement cannot be planned from; kNone if it can.
 Reason judge(const UavMeasurement& measurement, double now, double timeout) {
@@ -43,34 +29,25 @@ Reason judge(const UavMeasurement& measurement, double now, double timeout) {
   return Reason::kNone;
 }
 
-MovingTarget makeTarget(const std::vector<Vector3>& path, double start, double speed) {
-  MovingTarget target;
-  target.path = ReferencePath(path);
-  target.start = start;
-  target.speed = speed;
-  return target;
-}
-
 }  // namespace
 
 class SwarmPlanner::Impl {
  public:
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
-        workspace(mission.scenario.workspace),
-        surroundings(parameters, mission.scenario.uavs.size()),
-        sqp(std::make_unique<InteriorPointSolver>(kSolverSettings)),
-        judged(mission.scenario.uavs.size()) {
-    for (const ScenarioUav& scenario_uav : mission.scenario.uavs) {
-      Uav uav;
-      uav.name = scenario_uav.name;
-      uav.reference = makeTarget(scenario_uav.reference, scenario_uav.target.start, scenario_uav.target.speed);
-      uavs.push_back(std::move(uav));
+        uavs(mission.scenario.uavs.size()),
+        surroundings(parameters, uavs.size()),
+        team(static_cast<std::size_t>(parameters.compute.threads)),
+        judged(uavs.size()) {
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      const ScenarioUav& uav = mission.scenario.uavs[i];
+      uavs[i].name = uav.name;
+      uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
-    problem.parameters = &parameters;
-    problem.dt = parameters.time.sampling_time;
-    problem.bodies.reserve(uavs.size() + mission.scenario.obstacles.size());
+    for (std::size_t member = 0; member < team.size(); ++member) {
+      planners.emplace_back(parameters, mission.scenario.workspace, uavs.size() + mission.scenario.obstacles.size());
+    }
   }
 
   void plan(const Snapshot& snapshot, double epoch) {
@@ -86,18 +63,8 @@ class SwarmPlanner::Impl {
     report.cycle_time = stopwatch.elapsed();
   }
 
-  void reset() {
-    report.started = false;
-    for (Uav& uav : uavs) {
-      uav.plans = 0;
-      uav.reference_pending = true;
-      uav.on_reference = false;
-    }
-  }
-
-  Parameters parameters;
-  std::optional<Workspace> workspace;
-  std::vector<Uav> uavs;
+  const Parameters parameters;
+  std::vector<UavRecord> uavs;
   CycleReport report;
 
  private:
@@ -125,87 +92,39 @@ class SwarmPlanner::Impl {
 
   void planAll(const Snapshot& snapshot, double epoch) {
     surroundings.setObstacles(snapshot.obstacles, snapshot.now, epoch);
-    surroundings.clearUavs();
-    for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (uavs[i].plans > 0) {
-        surroundings.setPlan(i, uavs[i].committed, epoch);
-      } else if (judged[i] == Reason::kNone) {
-        surroundings.setResting(i, snapshot.uavs[i].p);
-      }
-    }
-    for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (uavs[i].reference_pending) uavs[i].reference.time_zero = epoch;
-      uavs[i].reference_pending = false;
-      if (judged[i] == Reason::kNone) planUav(i, snapshot.uavs[i], epoch);
+    team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
+    surroundings.findNeighbours();
+    order.build(surroundings.neighbours());
+    for (std::size_t round = 0; round < order.rounds(); ++round) {
+      team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
+        const std::size_t i = order.uav(position);
+        if (judged[i] == Reason::kNone) planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
+      });
     }
   }
 
-  void planUav(std::size_t i, const UavMeasurement& measurement, double epoch) {
-    const Stopwatch stopwatch;
-    Uav& uav = uavs[i];
-    UavReport& uav_report = report.uavs[i];
-    poseProblem(i, measurement, epoch);
+  /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
+  void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
+    UavRecord& uav = uavs[i];
     if (uav.plans > 0) {
-      shiftPlan(uav.committed, problem.start, epoch, problem.dt, plan_in_work);
+      surroundings.setPlan(i, uav.committed, epoch);
+    } else if (judged[i] == Reason::kNone) {
+      surroundings.setResting(i, snapshot.uavs[i].p);
     } else {
-      coastingPlan(problem.start, epoch, problem.dt, plan_in_work);
+      surroundings.setUnknown(i);
     }
-    const SqpResult result = sqp.solve(problem, plan_in_work);
-    uav_report.sqp_iterations = result.iterations;
-    uav_report.qp_iterations = result.qp_iterations;
-    uav_report.max_slack = result.max_violation;
-    uav_report.lag = problem.targets[0].arc_length - uav.progress;
-    const PredictedClearance clearance = predictedClearance(problem, plan_in_work);
-    uav_report.obstacle_clearance = clearance.obstacle;
-    uav_report.pair_distance = clearance.pair;
-    if (result.solved) {
-      commit(i, epoch);
-    } else {
-      uav_report.reason = Reason::kSolverFailed;
-    }
-    uav_report.planned = uav.plans > 0;
-    uav_report.state = uav_report.planned ? UavState::kTracking : UavState::kHolding;
-    if (result.solved) uav_report.reason = Reason::kNone;
-    if (result.max_violation > parameters.limits.tracking_margin) uav_report.reason = Reason::kConstraintsViolated;
-    if (uav_report.reason != Reason::kNone) uav_report.state = UavState::kFallback;
-    uav_report.solve_time = stopwatch.elapsed();
-  }
-
-  void poseProblem(std::size_t i, const UavMeasurement& measurement, double epoch) {
-    Uav& uav = uavs[i];
-    problem.epoch = epoch;
-    problem.path = &uav.reference.path;
-    if (uav.plans > 0) {
-      const bool flown_is_committed = uav.plans == 1 || measurement.stamp >= uav.committed.epoch;
-      problem.start = predictFromPlan(uav.committed, flown_is_committed ? uav.committed : uav.previous, measurement,
-                                      epoch, parameters.input.tracking_time);
-    } else {
-      problem.start = predictFromMeasurement(measurement, epoch);
-    }
-    const PathPoint foot = uav.on_reference ? uav.reference.path.nearest(problem.start.p, uav.progress)
-                                            : uav.reference.path.nearest(problem.start.p, 0.0, kInfinity);
-    uav.progress = problem.progress = foot.arc_length;
-    uav.on_reference = true;
-    for (std::size_t k = 0; k <= kHorizon; ++k) {
-      problem.targets[k] = uav.reference.at(epoch + static_cast<double>(k) * problem.dt);
-    }
-    problem.bounds = FlightBounds(parameters, workspace ? &*workspace : nullptr);
-    surroundings.collect(i, problem);
-  }
-
-  void commit(std::size_t i, double epoch) {
-    Uav& uav = uavs[i];
-    uav.previous = uav.committed;
-    uav.committed = plan_in_work;
-    uav.plans = std::min(uav.plans + 1, 2);
-    surroundings.setPlan(i, uav.committed, epoch);
+    if (uav.reference_pending) uav.reference.time_zero = epoch;
+    uav.reference_pending = false;
+    if (judged[i] != Reason::kNone) return;
+    uav.predictStart(snapshot.uavs[i], epoch, parameters.input.tracking_time);
+    surroundings.setPlanning(i, uav.start);
   }
 
   Surroundings surroundings;
-  SqpSolver sqp;
-  UavProblem problem;
-  Trajectory plan_in_work;
-  std::vector<Reason> judged;  ///< of each UAV's measurement in this cycle
+  SolveOrder order;
+  ThreadTeam team;
+  std::vector<UavPlanner> planners;  ///< one per member of the team
+  std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
 };
 
 SwarmPlanner::SwarmPlanner(const Mission& mission) : impl_(std::make_unique<Impl>(mission)) {}
@@ -239,12 +158,12 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   }
   if (!(start >= 0.0) || !std::isfinite(start)) throw std::invalid_argument("start must be finite and >= 0");
   if (!(speed >= 0.0) || !std::isfinite(speed)) throw std::invalid_argument("speed must be finite and >= 0");
-  Uav& target = impl_->uavs[uav];
-  target.reference = makeTarget(path, start, speed);
-  target.reference_pending = true;
-  target.on_reference = false;
+  impl_->uavs[uav].setReference(path, start, speed);
 }
 
-void SwarmPlanner::reset() { impl_->reset(); }
+void SwarmPlanner::reset() {
+  impl_->report.started = false;
+  for (UavRecord& uav : impl_->uavs) uav.reset();
+}
 
 }  // namespace swarm_planner

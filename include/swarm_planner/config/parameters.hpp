@@ -67,6 +67,11 @@ struct SqpParameters {
   double slack_quadratic = 200.0;  ///< quadratic penalty per square metre of violation
 };
 
+/// How the planner uses the machine.
+struct ComputeParameters {
+  int threads = 1;  ///< UAVs planned at the same time; the plans do not depend on it
+};
+
 /// Inputs of the planner and how long they are believed.
 struct InputParameters {
   double odometry_timeout = 0.5;  ///< older odometry is not used [s]
@@ -97,6 +102,7 @@ struct Parameters {
   TimeParameters time;
   CostParameters cost;
   SqpParameters sqp;
+  ComputeParameters compute;
   InputParameters input;
   SimulationParameters simulation;
 };

@@ -6,6 +6,7 @@
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
+#include "swarm_planner/swarm/neighbour_lists.hpp"
 
 namespace swarm_planner {
 
@@ -17,24 +18,35 @@ class Surroundings {
 
   /// Predicts the tracks to `epoch`. A track older than track_timeout at `now` is left out.
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch);
-  /// Forgets all UAVs.
-  void clearUavs();
+  /// Nothing is known of the UAV; others need not keep clear of it.
+  void setUnknown(std::size_t uav);
   /// The UAV flies `plan`; the stages are those of a horizon that starts at `epoch`.
   void setPlan(std::size_t uav, const Trajectory& plan, double epoch);
   /// The UAV rests at `position`.
   void setResting(std::size_t uav, const Vector3& position);
 
+  /// The UAV will plan anew from `start`: it may go wherever its speed takes it within the horizon.
+  void setPlanning(std::size_t uav, const KinematicState& start);
+  /// Finds out which UAVs can meet within the horizon, once motions and starts of all are set.
+  void findNeighbours();
+  const NeighbourLists& neighbours() const { return neighbours_; }
+
   /// Fills problem.bodies with what `uav` can reach from problem.start within the horizon.
   void collect(std::size_t uav, UavProblem& problem) const;
 
  private:
+  Box reach(const KinematicState& start) const;
   void collectObstacles(const Box& reach, UavProblem& problem) const;
   void collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const;
 
   const Parameters& parameters_;
+  double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
+  double vertical_;
   std::vector<Superellipsoid> obstacles_;  ///< at the epoch
   std::vector<PredictedMotion> motions_;
   std::vector<char> known_;  ///< whether motions_[uav] holds
+  std::vector<Box> areas_;   ///< where each UAV may be within the horizon, grown by half the pair distance
+  NeighbourLists neighbours_;
 };
 
 }  // namespace swarm_planner

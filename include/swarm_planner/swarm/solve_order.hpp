@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "swarm_planner/swarm/neighbour_lists.hpp"
+
+namespace swarm_planner {
+
+/// Sorts the UAVs of Problem 2 into rounds. Every UAV comes in a later round than all neighbours with a lower index, so
+/// that solving a round's UAVs in any order or at once gives what solving all one by one by index gives.
+class SolveOrder {
+ public:
+  void build(const NeighbourLists& neighbours);
+
+  std::size_t rounds() const { return round_begin_.size() - 1; }
+  /// UAVs of round r: uav(roundBegin(r)) .. uav(roundBegin(r + 1) - 1), ascending.
+  std::size_t roundBegin(std::size_t round) const { return round_begin_[round]; }
+  std::size_t uav(std::size_t position) const { return order_[position]; }
+
+ private:
+  std::vector<std::uint32_t> round_of_;
+  std::vector<std::uint32_t> round_begin_{0};
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace swarm_planner

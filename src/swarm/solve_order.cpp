@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/solve_order.hpp"
+
+#include <algorithm>
+
+namespace swarm_planner {
+
+void SolveOrder::build(const NeighbourLists& neighbours) {
+  const std::size_t count = neighbours.size();
+  round_of_.assign(count, 0);
+  std::uint32_t rounds = 0;
+  for (std::size_t uav = 0; uav < count; ++uav) {
+    for (const std::uint32_t other : neighbours.of(uav)) {
+      if (other > uav) break;
+      round_of_[uav] = std::max(round_of_[uav], round_of_[other] + 1);
+    }
+    rounds = std::max(rounds, round_of_[uav] + 1);
+  }
+  // Counting sort by round; within a round by index.
+  round_begin_.assign(rounds + 1, 0);
+  for (const std::uint32_t round : round_of_) ++round_begin_[round + 1];
+  for (std::size_t r = 0; r < rounds; ++r) round_begin_[r + 1] += round_begin_[r];
+  order_.resize(count);
+  for (std::size_t uav = count; uav-- > 0;) {
+    order_[--round_begin_[round_of_[uav] + 1]] = static_cast<std::uint32_t>(uav);
+  }
+  for (std::size_t r = 0; r < rounds; ++r) round_begin_[r] = round_begin_[r + 1];
+  round_begin_[rounds] = static_cast<std::uint32_t>(count);
+}
+
+}  // namespace swarm_planner
