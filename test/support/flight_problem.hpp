@@ -21,11 +21,15 @@ inline Trajectory makePlan(const KinematicState& start, const std::array<Vector3
   return plan;
 }
 
-/// A plan of constant velocity.
-inline Trajectory straightPlan(const Vector3& p, const Vector3& v, double epoch, double dt) {
+inline std::array<Vector3, kHorizon> noJerks() {
   std::array<Vector3, kHorizon> jerks;
   jerks.fill(Vector3::Zero());
-  return makePlan({p, v, Vector3::Zero()}, jerks, epoch, dt);
+  return jerks;
+}
+
+/// A plan of constant velocity.
+inline Trajectory straightPlan(const Vector3& p, const Vector3& v, double epoch, double dt) {
+  return makePlan({p, v, Vector3::Zero()}, noJerks(), epoch, dt);
 }
 
 /// A plan that wanders: jerks up to `jerk` [m/s^3] along each axis, accelerations held down to about a metre per s^2.
@@ -79,12 +83,8 @@ class FlightProblem {
                                                  limits.pair_distance_vertical + limits.tracking_margin, apart));
   }
 
-  /// The plan that goes on at the start's velocity.
-  Trajectory coasting() const {
-    std::array<Vector3, kHorizon> jerks;
-    jerks.fill(Vector3::Zero());
-    return makePlan(problem.start, jerks, problem.epoch, problem.dt);
-  }
+  /// The plan without jerk from the start.
+  Trajectory coasting() const { return makePlan(problem.start, noJerks(), problem.epoch, problem.dt); }
 
   Parameters parameters;
   UavProblem problem;
@@ -99,8 +99,8 @@ class FlightProblem {
   std::deque<PredictedMotion> motions_;
 };
 
-/// A UAV on a line along x among up to six obstacles and four UAVs, some of which it starts too close to, now and then
-/// with a workspace, a speed above the limit or an acceleration.
+/// Adds up to six obstacles and four UAVs, all moving, to a flight along x from about (0, 0, 10); it may start too
+/// close to some of them, or inside.
 inline void crowd(Random& random, FlightProblem& flight) {
   for (int i = random.integer(0, 6); i > 0; --i) {
     const Vector3 radii(random.logUniform(0.3, 6.0), random.logUniform(0.3, 6.0), random.logUniform(0.3, 6.0));
