@@ -1,0 +1,101 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <gtest/gtest.h>
+
+#include "support/random.hpp"
+#include "swarm_planner/swarm/neighbour_lists.hpp"
+#include "swarm_planner/swarm/solve_order.hpp"
+
+namespace swarm_planner {
+namespace {
+
+std::vector<Box> randomBoxes(std::size_t count, double spread, double largest, Random& random) {
+  std::vector<Box> boxes(count);
+  for (Box& box : boxes) {
+    const Vector3 centre = random.vector(-spread, spread);
+    const Vector3 half = random.vector(0.0, 0.5 * largest);
+    box.include(centre - half);
+    box.include(centre + half);
+  }
+  return boxes;
+}
+
+std::vector<std::size_t> overlapping(const std::vector<Box>& boxes, std::size_t box) {
+  std::vector<std::size_t> found;
+  for (std::size_t other = 0; other < boxes.size(); ++other) {
+    if (other != box && boxes[box].near(boxes[other], 0.0)) found.push_back(other);
+  }
+  return found;
+}
+
+std::vector<std::size_t> listed(const NeighbourLists& lists, std::size_t box) {
+  return {lists.of(box).begin(), lists.of(box).end()};
+}
+
+// A neighbour that is missing here is a UAV that nobody keeps clear of.
+TEST(NeighbourLists, HoldExactlyTheOverlappingBoxes) {
+  Random random(1);
+  NeighbourLists lists;
+  for (const double spread : {3.0, 50.0, 1e6}) {
+    for (const std::size_t count : {1UL, 2UL, 40UL, 300UL}) {
+      const std::vector<Box> boxes = randomBoxes(count, spread, 10.0, random);
+      lists.build(boxes);
+      ASSERT_EQ(lists.size(), count);
+      for (std::size_t box = 0; box < count; ++box) EXPECT_EQ(listed(lists, box), overlapping(boxes, box));
+    }
+  }
+}
+
+TEST(NeighbourLists, LeaveOutEmptyBoxes) {
+  std::vector<Box> boxes(3);
+  boxes[0].include(Vector3::Zero());
+  boxes[2].include(Vector3::Zero());
+  NeighbourLists lists;
+  lists.build(boxes);
+  EXPECT_EQ(listed(lists, 0), std::vector<std::size_t>{2});
+  EXPECT_TRUE(listed(lists, 1).empty());
+  EXPECT_EQ(listed(lists, 2), std::vector<std::size_t>{0});
+}
+
+TEST(NeighbourLists, OfNothingAreEmpty) {
+  NeighbourLists lists;
+  lists.build({});
+  EXPECT_EQ(lists.size(), 0U);
+}
+
+// Two neighbours in one round would be planned at once, each without the other's new plan.
+TEST(SolveOrder, KeepsNeighboursInTheOrderOfTheirIndices) {
+  Random random(2);
+  NeighbourLists lists;
+  SolveOrder order;
+  for (const double spread : {5.0, 40.0, 500.0}) {
+    lists.build(randomBoxes(200, spread, 10.0, random));
+    order.build(lists);
+    std::vector<int> round_of(200, -1);
+    for (std::size_t round = 0; round < order.rounds(); ++round) {
+      for (std::size_t position = order.roundBegin(round); position < order.roundBegin(round + 1); ++position) {
+        EXPECT_EQ(round_of[order.uav(position)], -1) << "planned twice";
+        round_of[order.uav(position)] = static_cast<int>(round);
+      }
+    }
+    for (std::size_t uav = 0; uav < 200; ++uav) {
+      ASSERT_GE(round_of[uav], 0) << "never planned";
+      for (const std::uint32_t other : lists.of(uav)) {
+        EXPECT_EQ(other < uav, round_of[other] < round_of[uav]);
+        EXPECT_NE(round_of[other], round_of[uav]);
+      }
+    }
+  }
+}
+
+TEST(SolveOrder, TakesOneRoundWhereNobodyMeets) {
+  std::vector<Box> boxes(50);
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes[i].include(Vector3(10.0 * static_cast<double>(i), 0.0, 0.0));
+  NeighbourLists lists;
+  lists.build(boxes);
+  SolveOrder order;
+  order.build(lists);
+  EXPECT_EQ(order.rounds(), 1U);
+}
+
+}  // namespace
+}  // namespace swarm_planner
