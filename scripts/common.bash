@@ -37,6 +37,14 @@ build_packages=(
   ros-std-msgs
 )
 run_packages=(python3-rosbag rosbash rosout)
+test_packages=(
+  python3-diagnostic-msgs
+  python3-geometry-msgs
+  python3-nav-msgs
+  python3-rosgraph-msgs
+  python3-rospy
+  python3-trajectory-msgs
+)
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)
 tidy_packages=(clang-tidy)
