@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "swarm_planner/experiments/experiment_program.hpp"
