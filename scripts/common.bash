@@ -44,6 +44,7 @@ test_packages=(
   python3-rosgraph-msgs
   python3-rospy
   python3-trajectory-msgs
+  tf2-tools
 )
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)
