@@ -14,6 +14,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr int kMostUavs = 100000;
+constexpr int kMostThreads = 256;
 constexpr std::uint64_t kMostScenarios = 1000000;
 constexpr std::uint64_t kLargestSeed = 2147483647;  // that of the parameter "seed", so that a run can be repeated there
 
@@ -154,7 +155,7 @@ void Parser::readOption(const std::string& option) {
   } else if (option == "--noise") {
     options_.noise = positiveNumber(option, value(option), true);
   } else if (option == "--threads") {
-    if (value(option) != "1") throw OptionError("--threads: the planner runs on 1 thread so far");
+    options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
   } else if (option == "--without") {
     const std::string what = value(option);
     if (what != "avoidance")
@@ -235,7 +236,7 @@ options:
   --noise SIGMA        standard deviation of odometry [m] and [m/s]
   --without avoidance  negative control: plans ignore obstacles and other UAVs
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
-  --threads 1          threads of the planner (one so far)
+  --threads T          threads of the planner; the flight does not depend on it
   --help               this text
 
 Exit status: 0 flown, 1 faults in a file or results that cannot be written, 2 wrong command line.

@@ -16,6 +16,7 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
     given["position_noise"] = *options.noise;
     given["velocity_noise"] = *options.noise;
   }
+  if (options.threads) given["threads"] = *options.threads;
   if (!options.avoidance) given["avoidance"] = false;
   return given;
 }

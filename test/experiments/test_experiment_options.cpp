@@ -13,7 +13,7 @@ using Arguments = std::vector<std::string>;
 TEST(ExperimentOptions, ReadsWhatIsGiven) {
   const ExperimentOptions options =
       parseExperimentOptions({"fly", "a.yaml", "--seeds", "3:5", "b.yaml", "--json=out.json", "--csv", "dir", "--noise",
-                              "0.02", "--without", "avoidance", "--params", "p.yaml", "--threads", "1"});
+                              "0.02", "--without", "avoidance", "--params", "p.yaml", "--threads", "2"});
   EXPECT_EQ(options.command, ExperimentCommand::kFly);
   EXPECT_EQ(options.scenario_files, (Arguments{"a.yaml", "b.yaml"}));
   EXPECT_EQ(options.seeds, (std::vector<std::uint64_t>{3, 4, 5}));
@@ -21,6 +21,7 @@ TEST(ExperimentOptions, ReadsWhatIsGiven) {
   EXPECT_EQ(options.csv_directory, "dir");
   EXPECT_EQ(options.parameter_file, "p.yaml");
   EXPECT_EQ(options.noise, 0.02);
+  EXPECT_EQ(options.threads, 2);
   EXPECT_FALSE(options.avoidance);
 }
 
@@ -70,7 +71,7 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"fly", "a.yaml", "--noise", "inf"}, "--noise: expected a number >= 0"},
       {{"fly", "a.yaml", "--noise", "0.1x"}, "--noise: expected a number >= 0"},
       {{"fly", "a.yaml", "--noise="}, "--noise: expected a number >= 0"},
-      {{"fly", "a.yaml", "--threads", "2"}, "1 thread"},
+      {{"fly", "a.yaml", "--threads", "0"}, "--threads: expected a whole number from 1"},
       {{"fly", "a.yaml", "--without", "check"}, "only \"avoidance\""},
       {{"fly", "a.yaml", "--uavs", "6"}, "does not go with this command"},
       {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},

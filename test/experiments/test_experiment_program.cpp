@@ -139,6 +139,15 @@ TEST_F(ExperimentProgramTest, TheSameSeedGivesTheSameFlight) {
   EXPECT_NE(first, flight("2"));
 }
 
+TEST_F(ExperimentProgramTest, TheFlightDoesNotDependOnTheNumberOfThreads) {
+  const auto flight = [this](const std::string& threads) {
+    const std::string csv = directory_.file("csv" + threads);
+    EXPECT_EQ(run({"circle_swap", "--uavs", "6", "--threads", threads, "--csv", csv}), kExperimentDone) << err_.str();
+    return contentOf(csv + "/states.csv");
+  };
+  EXPECT_EQ(flight("1"), flight("3"));
+}
+
 TEST_F(ExperimentProgramTest, FaultsOfAllFilesAreListedAndNothingIsFlown) {
   const std::string first = write("first.yaml", "name: first\nframe_id: map\n");
   const std::string second = write("second.yaml", std::string(kScenario) + "speeed: 3\n");

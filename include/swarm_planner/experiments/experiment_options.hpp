@@ -28,6 +28,7 @@ struct ExperimentOptions {
   /// Empty only for fly without either: then the parameter "seed" holds.
   std::vector<std::uint64_t> seeds;
   std::optional<double> noise;  ///< standard deviation of odometry [m] and [m/s]
+  std::optional<int> threads;   ///< of the planner
   bool avoidance = true;        ///< false: negative control
   std::optional<std::string> parameter_file;
   std::optional<std::string> json_file;
