@@ -2,7 +2,7 @@
 #include <map>
 
 #include "parameter_table.hpp"
-#include "scenario_checks.hpp"
+#include "ros_names.hpp"
 #include "spelling.hpp"
 #include "swarm_planner/config/scenario.hpp"
 #include "yaml_reader.hpp"
@@ -50,28 +50,18 @@ void readEnd(const YamlNode& node, EndCondition& end) {
   }
 }
 
-/// Returns whether every point could be read.
-bool readReference(const YamlMap& map, std::vector<Vector3>& reference) {
+void readReference(const YamlMap& map, std::vector<Vector3>& reference) {
   const std::string expected = "a list of at least one point [x, y, z]";
   const YamlNode* node = map.require("reference", expected);
   const auto points = node ? node->list(expected) : std::nullopt;
-  if (!points) return false;
+  if (!points) return;
   if (points->empty()) node->unexpected(expected);
   for (const YamlNode& point : *points) {
     if (const std::optional<Vector3> position = point.vector3(Range::finite())) reference.push_back(*position);
   }
-  return !points->empty() && reference.size() == points->size();
 }
 
-bool readTarget(const YamlMap& map, TargetMotion& target) {
-  const YamlNode* node = map.require("target", "a map {start: [m], speed: [m/s]}");
-  if (node == nullptr) return false;
-  const YamlMap target_map(*node, {"start", "speed"});
-  const bool has_start = target_map.read("start", Range::atLeast(0.0), target.start);
-  return target_map.read("speed", Range::atLeast(0.0), target.speed) && has_start;
-}
-
-ScenarioUav readUav(const YamlNode& node, const std::optional<double>& end_x, Uniqueness<std::string>& names) {
+ScenarioUav readUav(const YamlNode& node, Uniqueness<std::string>& names) {
   const YamlMap map(node, {"name", "start", "reference", "target"});
   ScenarioUav uav;
   if (map.read("name", uav.name)) {
@@ -81,10 +71,11 @@ ScenarioUav readUav(const YamlNode& node, const std::optional<double>& end_x, Un
     names.check(map, "name", uav.name, node.key());
   }
   map.read("start", Range::finite(), uav.start);
-  const bool has_reference = readReference(map, uav.reference);
-  const bool has_target = readTarget(map, uav.target);
-  if (end_x && has_reference && has_target && !targetCrosses(uav, *end_x)) {
-    map.find("reference")->fault("the target never crosses end.target_x, so that the run would not end");
+  readReference(map, uav.reference);
+  if (const YamlNode* target_node = map.require("target", "a map {start: [m], speed: [m/s]}")) {
+    const YamlMap target(*target_node, {"start", "speed"});
+    target.read("start", Range::atLeast(0.0), uav.target.start);
+    target.read("speed", Range::atLeast(0.0), uav.target.speed);
   }
   return uav;
 }
@@ -138,14 +129,14 @@ void readOverrides(const YamlNode& node, std::map<std::string, double>& override
   }
 }
 
-void readUavs(const YamlMap& root, const std::optional<double>& end_x, std::vector<ScenarioUav>& uavs) {
+void readUavs(const YamlMap& root, std::vector<ScenarioUav>& uavs) {
   const std::string expected = "a list of at least one UAV";
   const YamlNode* node = root.require("uavs", expected);
   const auto elements = node ? node->list(expected) : std::nullopt;
   if (!elements) return;
   if (elements->empty()) node->unexpected(expected);
   Uniqueness<std::string> names;
-  for (const YamlNode& element : *elements) uavs.push_back(readUav(element, end_x, names));
+  for (const YamlNode& element : *elements) uavs.push_back(readUav(element, names));
 }
 
 void readObstacles(const YamlNode& node, std::vector<ScenarioObstacle>& obstacles) {
@@ -163,7 +154,7 @@ Scenario readScenario(const YamlNode& node) {
     root.find("frame_id")->unexpected("a tf2 frame: no leading slash, no white space");
   }
   if (const YamlNode* end = root.require("end", "one of target_x, duration, all_at_goal")) readEnd(*end, scenario.end);
-  readUavs(root, scenario.end.target_x, scenario.uavs);
+  readUavs(root, scenario.uavs);
   if (const YamlNode* obstacles = root.find("obstacles")) readObstacles(*obstacles, scenario.obstacles);
   if (const YamlNode* map = root.find("map")) readMap(*map);
   if (const YamlNode* workspace = root.find("workspace")) readWorkspace(*workspace, scenario.workspace);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "number_text.hpp"
-#include "scenario_checks.hpp"
+#include "ros_names.hpp"
 #include "swarm_planner/config/scenario.hpp"
 
 namespace swarm_planner {
@@ -69,7 +69,7 @@ std::string overridesText(const std::map<std::string, double>& overrides) {
 
 std::string toYaml(const Scenario& scenario) {
   std::string text = "name: " + scalarText(scenario.name) + "\nframe_id: " + scalarText(scenario.frame_id) +
-                     "\nend: " + endText(scenario.end) + "\nuavs:\n";
+                     "\nend: " + endText(scenario.end) + (scenario.uavs.empty() ? "\nuavs: []\n" : "\nuavs:\n");
   for (const ScenarioUav& uav : scenario.uavs) text += uavText(uav);
   text += scenario.obstacles.empty() ? "obstacles: []\n" : "obstacles:\n";
   for (const ScenarioObstacle& obstacle : scenario.obstacles) text += obstacleText(obstacle);

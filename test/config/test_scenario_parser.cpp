@@ -114,18 +114,6 @@ uavs:
   EXPECT_TRUE(scenario.overrides.empty());
 }
 
-TEST(ScenarioParser, TargetThatIsAlreadyBeyondTheEndNeedsNoSpeed) {
-  parsed(R"(
-name: beyond
-frame_id: map
-end: {target_x: 5}
-uavs:
-  - {name: a, start: [0, 0, 1], reference: [[0, 0, 1], [0, 10, 1], [10, 10, 1]], target: {start: 16, speed: 0}}
-  - {name: b, start: [6, 0, 1], reference: [[6, 0, 1]], target: {start: 0, speed: 0}}
-  - {name: c, start: [9, 9, 1], reference: [[0, 9, 1], [5, 9, 1], [0, 9, 1]], target: {start: 3, speed: 1}}
-)");
-}
-
 TEST(ScenarioWriter, ReadsBackExactly) {
   for (const Scenario& scenario : {paperSix(), paperScaling(32), paperMonteCarlo(6, 1), paperMonteCarlo(16, 77),
                                    crossing(), circleSwap(7, 3.3, 5)}) {

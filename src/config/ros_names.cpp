@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-#include "scenario_checks.hpp"
+#include "ros_names.hpp"
 
 #include <algorithm>
 
@@ -24,24 +24,6 @@ bool isFrameName(const std::string& name) {
   constexpr char kLastControl = ' ', kDelete = 127;
   if (name.empty() || name.front() == '/') return false;
   return std::all_of(name.begin(), name.end(), [](char c) { return c > kLastControl && c != kDelete; });
-}
-
-bool targetCrosses(const ScenarioUav& uav, double x) {
-  Vector3 target = uav.reference.front();
-  double to_walk = uav.target.start;
-  auto next = uav.reference.begin() + 1;
-  for (; next != uav.reference.end(); ++next) {
-    const Vector3 step = *next - target;
-    if (to_walk < step.norm()) {
-      target += to_walk * step.normalized();
-      break;
-    }
-    to_walk -= step.norm();
-    target = *next;
-  }
-  if (target.x() >= x) return true;
-  return uav.target.speed > 0.0 &&
-         std::any_of(next, uav.reference.end(), [x](const Vector3& point) { return point.x() >= x; });
 }
 
 }  // namespace swarm_planner

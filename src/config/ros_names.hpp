@@ -3,8 +3,6 @@
 
 #include <string>
 
-#include "swarm_planner/config/scenario.hpp"
-
 namespace swarm_planner {
 
 /// A legal relative graph resource name of ROS, so that `<uav>/odometry` is a legal topic: a letter, then letters,
@@ -13,8 +11,5 @@ bool isGraphName(const std::string& name);
 
 /// A frame that tf2 can look up: printable, no leading slash, no white space.
 bool isFrameName(const std::string& name);
-
-/// Whether the target of `uav` is at some time at `x` or beyond. A run that ends at target_x needs it of all UAVs.
-bool targetCrosses(const ScenarioUav& uav, double x);
 
 }  // namespace swarm_planner
