@@ -18,9 +18,9 @@ struct QuadState {
 /// Total thrust and torques that four rotor speeds [rad/s] produce; rotor order as in section 2.1:
 /// 1 left (+y), 2 back (-x, see flat_inputs.hpp), 3 right (-y), 4 front (+x).
 struct Wrench {
-  double thrust = 0.0;      ///< T [N]
-  double tau_phi = 0.0;     ///< [N m]
-  double tau_theta = 0.0;   ///< [N m]
+  double thrust = 0.0;     ///< T [N]
+  double tau_phi = 0.0;    ///< [N m]
+  double tau_theta = 0.0;  ///< [N m]
 };
 Wrench rotorWrench(const Vector4& rotor_speeds, const VehicleParameters& vehicle);
 

@@ -7,20 +7,20 @@ namespace swarm_planner {
 
 /// Attitude and thrust that make the reduced dynamics (1) fly a given acceleration.
 struct Attitude {
-  double phi = 0.0;    ///< roll [rad]
-  double theta = 0.0;  ///< pitch [rad]
-  double thrust = 0.0; ///< T [N], eq. (5)
+  double phi = 0.0;     ///< roll [rad]
+  double theta = 0.0;   ///< pitch [rad]
+  double thrust = 0.0;  ///< T [N], eq. (5)
 };
 
 /// Everything that (1) needs to follow a motion with given derivatives.
 struct FlatInputs {
   Attitude attitude;
-  double phi_rate = 0.0;    ///< [rad/s]
-  double theta_rate = 0.0;  ///< [rad/s]
-  double tau_phi = 0.0;     ///< [N m]
-  double tau_theta = 0.0;   ///< [N m]
+  double phi_rate = 0.0;                   ///< [rad/s]
+  double theta_rate = 0.0;                 ///< [rad/s]
+  double tau_phi = 0.0;                    ///< [N m]
+  double tau_theta = 0.0;                  ///< [N m]
   Vector4 rotor_speeds = Vector4::Zero();  ///< after saturation [rad/s]
-  bool saturated = false;   ///< a rotor speed was clamped
+  bool saturated = false;                  ///< a rotor speed was clamped
 };
 
 /// A of (3): acceleration plus drag over mass [m/s^2].

@@ -13,7 +13,7 @@ struct Setpoint {
   Vector3 p = Vector3::Zero();
   Vector3 v = Vector3::Zero();
   Vector3 a = Vector3::Zero();
-  double yaw = 0.0;              ///< [rad]
+  double yaw = 0.0;  ///< [rad]
 };
 
 /// A trajectory as a vehicle receives it: sampled states from an epoch on.
