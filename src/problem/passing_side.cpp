@@ -8,9 +8,9 @@ namespace swarm_planner {
 namespace {
 
 constexpr int kDirections = 8;
-constexpr double kRightBonus = 0.1;  // of the distance to keep: decides draws, never a clear case
+constexpr double kRightBonus = 0.1;   // of the distance to keep: decides draws, never a clear case
 constexpr double kLevelBonus = 0.01;  // likewise, between above and below
-constexpr double kMinMotion = 1e-3;  // relative motion over a segment below which there is no passage [m]
+constexpr double kMinMotion = 1e-3;   // relative motion over a segment below which there is no passage [m]
 
 /// How far a point must move from `origin` along `direction` to leave the body [m]; 0 if it is outside.
 double wayOut(const MovingBody& body, const Vector3& origin, const Vector3& direction) {
