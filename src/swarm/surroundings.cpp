@@ -33,6 +33,12 @@ void Surroundings::setPlan(std::size_t uav, const Trajectory& plan, double epoch
   areas_[uav] = motions_[uav].box;
 }
 
+void Surroundings::setLastPlan(std::size_t uav, const Trajectory& plan, double epoch) {
+  predictToRest(plan, epoch, parameters_.time.sampling_time, motions_[uav]);
+  known_[uav] = 1;
+  areas_[uav] = motions_[uav].box;
+}
+
 void Surroundings::setResting(std::size_t uav, const Vector3& position) {
   predictResting(position, motions_[uav]);
   known_[uav] = 1;

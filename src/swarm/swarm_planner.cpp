@@ -106,16 +106,19 @@ class SwarmPlanner::Impl {
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
-    if (uav.plans > 0) {
+    const bool measured = judged[i] == Reason::kNone;
+    if (uav.isFlyingPlanAt(epoch) && measured) {
       surroundings.setPlan(i, uav.committed, epoch);
-    } else if (judged[i] == Reason::kNone) {
+    } else if (measured) {
       surroundings.setResting(i, snapshot.uavs[i].p);
+    } else if (uav.plans > 0) {
+      surroundings.setLastPlan(i, uav.committed, epoch);
     } else {
       surroundings.setUnknown(i);
     }
     if (uav.reference_pending) uav.reference.time_zero = epoch;
     uav.reference_pending = false;
-    if (judged[i] != Reason::kNone) return;
+    if (!measured) return;
     uav.predictStart(snapshot.uavs[i], epoch, parameters.input.tracking_time);
     surroundings.setPlanning(i, uav.start);
   }
@@ -145,7 +148,7 @@ const Trajectory& SwarmPlanner::committed(std::size_t uav) const { return impl_-
 
 TargetState SwarmPlanner::target(std::size_t uav, double t) const {
   const MovingTarget& reference = impl_->uavs[uav].reference;
-  return reference.at(impl_->uavs[uav].reference_pending ? reference.time_zero : t);
+  return reference.at(impl_->uavs[uav].reference_pending ? -kInfinity : t);
 }
 
 const MovingTarget& SwarmPlanner::reference(std::size_t uav) const { return impl_->uavs[uav].reference; }

@@ -32,7 +32,7 @@ void UavRecord::reset() {
 }
 
 void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, double tracking_time) {
-  if (plans == 0) {
+  if (!isFlyingPlanAt(measurement.stamp)) {
     start = predictFromMeasurement(measurement, epoch);
     return;
   }

@@ -45,6 +45,10 @@ struct PredictedMotion {
 /// jerk change * dt^3 / 192.
 void predict(const Trajectory& plan, double epoch, double dt, PredictedMotion& motion);
 
+/// The same for a UAV that gets no plan after this one: it stops where the plan ends and rests there. In the stage
+/// in which it stops the fit brakes: off by at most 4/27 of the way that the last velocity makes in dt.
+void predictToRest(const Trajectory& plan, double epoch, double dt, PredictedMotion& motion);
+
 /// Prediction of a UAV that has no plan: it rests at `position`.
 void predictResting(const Vector3& position, PredictedMotion& motion);
 

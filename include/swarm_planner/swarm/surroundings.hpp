@@ -22,6 +22,8 @@ class Surroundings {
   void setUnknown(std::size_t uav);
   /// The UAV flies `plan`; the stages are those of a horizon that starts at `epoch`.
   void setPlan(std::size_t uav, const Trajectory& plan, double epoch);
+  /// The same for a UAV that cannot be planned for: it rests where `plan` ends.
+  void setLastPlan(std::size_t uav, const Trajectory& plan, double epoch);
   /// The UAV rests at `position`.
   void setResting(std::size_t uav, const Vector3& position);
 

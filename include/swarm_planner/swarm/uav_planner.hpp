@@ -27,6 +27,8 @@ struct UavRecord {
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
   /// Forgets all plans; the reference starts anew.
   void reset();
+  /// Whether the newest plan reaches to time `t` [s]; a UAV whose plan has ended rests.
+  bool isFlyingPlanAt(double t) const { return plans > 0 && t <= committed.epoch + committed.duration(); }
   /// Predicts where the UAV will be at `epoch`, from its plan and `measurement`.
   void predictStart(const UavMeasurement& measurement, double epoch, double tracking_time);
 };

@@ -1,0 +1,56 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
+namespace swarm_planner {
+
+/// A mission of UAVs that fly from `starts[i]` to `ends[i]` behind a target of `speed` [m/s]. Not checked: tests start
+/// UAVs where no scenario may.
+Mission makeTestMission(const std::vector<Vector3>& starts, const std::vector<Vector3>& ends, double speed);
+
+/// Flies a mission in closed loop by vehicles that follow their plans perfectly, as a lossless link would have it. A
+/// vehicle that gets no new plan flies the last one to its end and rests there.
+class PerfectFlight {
+ public:
+  explicit PerfectFlight(const Mission& mission, double start_time = 0.0);
+
+  /// One cycle: measure, plan for the next epoch, fly until then. `tamper` may spoil the snapshot before.
+  const CycleReport& cycle(const std::function<void(Snapshot&)>& tamper = nullptr);
+  void cycles(int count) {
+    for (int i = 0; i < count; ++i) cycle();
+  }
+
+  SwarmPlanner& planner() { return planner_; }
+  double now() const { return now_; }
+  /// State of a vehicle at time `t`, at or after the last epoch.
+  KinematicState vehicle(std::size_t uav, double t) const;
+  KinematicState vehicle(std::size_t uav) const { return vehicle(uav, now_); }
+  /// Obstacle as its track says it is at `t`.
+  Superellipsoid obstacle(std::size_t index, double t) const;
+
+  /// Least over the whole flight, sampled 20 times a cycle: pair gauge without margin (below 1: a collision) and
+  /// distance of a centre from an obstacle's surface [m].
+  double leastPairGauge() const { return least_pair_gauge_; }
+  double leastObstacleDistance() const { return least_obstacle_distance_; }
+
+ private:
+  void measure();
+  void watch(double from, double to);
+
+  Mission mission_;
+  SwarmPlanner planner_;
+  Snapshot snapshot_;
+  double start_time_;
+  double now_;
+  std::vector<std::optional<Trajectory>> flown_;
+  double least_pair_gauge_ = std::numeric_limits<double>::infinity();
+  double least_obstacle_distance_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace swarm_planner
