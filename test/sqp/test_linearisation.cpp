@@ -189,7 +189,7 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
     const double dt = flight.problem.dt;
     const Vector3 radii(random.logUniform(0.5, 3.0), random.logUniform(0.5, 3.0), random.logUniform(0.5, 3.0));
     const Superellipsoid obstacle(1, Vector3(random.uniform(6, 15), random.uniform(-2, 2), 10), radii,
-                                  random.vector(2.0, 10.0), random.uniform(-3.0, 3.0), random.vector(-0.5, 0.5));
+                                  random.vector(2.0, 10.0), random.uniform(-3.0, 3.0), random.vector(-4.0, 4.0));
     const Trajectory other = wanderingPlan(
         random, {Vector3(random.uniform(8, 20), random.uniform(-6, 6), 10), random.vector(-2.0, 2.0), Vector3::Zero()},
         1.0, 0.0, dt);

@@ -4,6 +4,7 @@
 // all others, or UAVs collide.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -13,6 +14,7 @@
 
 #include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
+#include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -221,6 +223,30 @@ TEST(Odometry, SlightlyOldOrAheadIsUsed) {
   }
 }
 
+// Odometry is always a little older than the newest plan's epoch: it shows how the plan before was flown. A UAV that
+// tracks perfectly must not be believed to deviate.
+TEST(Odometry, FromBeforeTheNewestPlanIsHeldAgainstTheOneBefore) {
+  constexpr double kAge = 0.1;
+  PerfectFlight flight(twoAbreast());
+  flight.planner().setReference(0, {Vector3(0, 0, 10), Vector3(6, 0, 10), Vector3(6, 30, 10)}, 0.0, 3.0);
+  flight.cycles(2);
+  Trajectory before = flight.planner().committed(0);
+  flight.cycle();
+  for (int i = 0; i < 20; ++i) {
+    const Trajectory newest = flight.planner().committed(0);
+    const double epoch = flight
+                             .cycle([&](Snapshot& snapshot) {
+                               const double stamp = snapshot.now - kAge;
+                               snapshot.uavs[0] = {true, stamp, before.at(stamp).p, before.at(stamp).v};
+                             })
+                             .epoch;
+    const KinematicState& start = flight.planner().committed(0).knots.front();
+    EXPECT_LT((start.p - newest.at(epoch).p).norm(), 1e-9);
+    EXPECT_LT((start.v - newest.at(epoch).v).norm(), 1e-9);
+    before = newest;
+  }
+}
+
 // Finite and impossible: a state estimator that diverges.
 TEST(Odometry, OfAbsurdSizeDoesNotTouchTheOthers) {
   for (const double absurd : {1e9, 1e30, 1e300}) {
@@ -306,6 +332,15 @@ TEST(SetReference, SendsTheUavThereFromTheNextEpochOn) {
   EXPECT_NEAR(flight.vehicle(1).p.y(), 10.0, 0.3) << "the other one's reference is its own";
 }
 
+TEST(SetReference, FindsItsPlaceOnTheNewReference) {
+  PerfectFlight flight(twoAbreast());
+  flight.cycles(40);
+  const Vector3 here = flight.vehicle(0).p;
+  ASSERT_GT(here.x(), 20.0);
+  flight.planner().setReference(0, {here, here + Vector3(-80, 0, 0)}, 0.0, 1.0);
+  EXPECT_LT(std::abs(flight.cycle().uavs[0].lag), 2.0) << "it is held against a far part of the new reference";
+}
+
 TEST(SetReference, RefusesWhatCannotBeFlown) {
   SwarmPlanner planner(twoAbreast());
   const Path good{Vector3(0, 0, 10), Vector3(9, 0, 10)};
@@ -368,6 +403,32 @@ TEST(Swarm, MeetingHeadOnPassEachOther) {
     EXPECT_LT((flight.vehicle(0).p - way[1]).norm(), 0.5) << way[0].transpose();
     EXPECT_LT((flight.vehicle(1).p - way[0]).norm(), 0.5) << way[0].transpose();
   }
+}
+
+/// Least gauge of the two newest plans over the horizon, sampled densely.
+double leastPairGaugeOfPlans(const SwarmPlanner& planner) {
+  const Trajectory& first = planner.committed(0);
+  const Trajectory& second = planner.committed(1);
+  double least = kInfinity;
+  for (double t = 0.0; t <= first.duration(); t += 0.02) {
+    least = std::min(least, pairGauge(first.after(t).p - second.after(t).p, LimitParameters()));
+  }
+  return least;
+}
+
+// Problem 2 solves one UAV after the other. Around the plans of the cycle before, both would give way, or neither.
+TEST(Swarm, EachUavPlansAroundTheNewPlansOfThoseBefore) {
+  const Mission mission =
+      makeTestMission({Vector3(-6, 0, 10), Vector3(0, -6, 10)}, {Vector3(20, 0, 10), Vector3(0, 20, 10)}, 3.0);
+  SwarmPlanner planner(mission);
+  planner.plan(snapshotOf(mission, 0.0), 0.3);
+  EXPECT_GT(leastPairGaugeOfPlans(planner), 1.0);
+  SwarmPlanner alone(makeTestMission({Vector3(0, -6, 10)}, {Vector3(0, 20, 10)}, 3.0));
+  Snapshot snapshot = snapshotOf(mission, 0.0);
+  snapshot.uavs.erase(snapshot.uavs.begin());
+  alone.plan(snapshot, 0.3);
+  EXPECT_GT((alone.committed(0).knots.back().p - planner.committed(1).knots.back().p).norm(), 0.1)
+      << "the second need not give way at all: this shows nothing";
 }
 
 TEST(Swarm, AFasterUavOvertakesASlowerOne) {
