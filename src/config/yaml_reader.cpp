@@ -10,6 +10,7 @@
 
 #include "number_text.hpp"
 #include "spelling.hpp"
+#include "yaml_documents.hpp"
 
 namespace swarm_planner {
 
@@ -40,12 +41,12 @@ YamlNode::YamlNode(const YAML::Node& node, std::string key, const YamlSource& so
 
 std::optional<YamlNode> YamlNode::parse(const std::string& text, const YamlSource& source) {
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() == 1 && !documents.front().IsNull()) return YamlNode(documents.front(), "", source);
+    const YAML::Node root = YAML::Load(text);
+    const bool has_more = hasMoreThanOneYamlDocument(text);
+    if (!has_more && !root.IsNull()) return YamlNode(root, "", source);
     source.faults.add(source.name, "",
-                      documents.size() > 1
-                          ? "found " + std::to_string(documents.size()) + " YAML documents, expected one"
-                          : std::string("found nothing, expected a YAML map"));
+                      has_more ? "found text after the first YAML document, expected only one document"
+                               : "found nothing, expected a YAML map");
   } catch (const YAML::Exception& error) {
     source.faults.add(source.name, "", "no legal YAML: " + error.msg + lineNote(error.mark));
   }
