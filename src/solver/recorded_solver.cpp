@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/solver/recorded_solver.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "recorded_qp.h"
@@ -15,6 +16,7 @@ struct Functions {
   void (*default_parameters)(recorded_qp_parameters*);
   int (*setup)(recorded_qp_tables*, const recorded_qp_parameters*, uint64_t);
   void (*init)(recorded_qp_solver*, const recorded_qp_tables*);
+  void (*set_rows)(recorded_qp_solver*, int, int, int, const float*, const float*);
   int (*solve)(const recorded_qp_tables*, recorded_qp_solver*);
 };
 
@@ -23,16 +25,16 @@ Functions selectFunctions() {
   switch (bestInstructionSet()) {
     case InstructionSet::kAvx512:
       return {recorded_qp_default_parameters_avx512, recorded_qp_setup_avx512, recorded_qp_init_avx512,
-              recorded_qp_solve_avx512};
+              recorded_qp_set_rows_avx512, recorded_qp_solve_avx512};
     case InstructionSet::kAvx2:
       return {recorded_qp_default_parameters_avx2, recorded_qp_setup_avx2, recorded_qp_init_avx2,
-              recorded_qp_solve_avx2};
+              recorded_qp_set_rows_avx2, recorded_qp_solve_avx2};
     case InstructionSet::kBaseline:
       break;
   }
 #endif
   return {recorded_qp_default_parameters_baseline, recorded_qp_setup_baseline, recorded_qp_init_baseline,
-          recorded_qp_solve_baseline};
+          recorded_qp_set_rows_baseline, recorded_qp_solve_baseline};
 }
 
 double stateWeight(int index, int state) {
@@ -41,28 +43,30 @@ double stateWeight(int index, int state) {
   return last ? recorded::kFinalVelocityWeight : recorded::kVelocityWeight;
 }
 
+/// The recorded multipliers come from a method that leaves none at zero: what is smaller counts as zero.
+constexpr float kLeastMultiplier = 1e-6f;
+
+constexpr int kStride = 8;  ///< multipliers looked at together; most are zero
+
+bool anyAbove(const float* multipliers, int count) {
+  bool any = false;
+  for (int i = 0; i < count; ++i) any |= multipliers[i] > kLeastMultiplier;
+  return any;
+}
+
 void guess(recorded_qp_solver& s, int id, float multiplier) {
-  if (!(multiplier > 0.0f) || s.warm_count == RECORDED_QP_MAX_ACTIVE) return;
+  if (!(multiplier > kLeastMultiplier) || s.warm_count == RECORDED_QP_MAX_ACTIVE) return;
   s.warm_id[s.warm_count] = id;
   s.warm_multiplier[s.warm_count++] = static_cast<double>(multiplier);
 }
 
-void loadRows(recorded_qp_solver& s, const RecordedProblem& problem, int rows) {
-  const float* normal = problem.normal.data();
-  const float* offset = problem.offset.data();
+void loadThrust(recorded_qp_solver& s, const RecordedProblem& problem) {
   for (int k = 0; k < kHorizon; ++k) {
-    const int slot = RECORDED_QP_SLOT_POSITION(k, 0);
-    for (int i = 0; i < rows; ++i) {
-      for (int c = 0; c < 3; ++c) s.row_normal[c][slot + i] = static_cast<double>(normal[3 * i + c]);
-      s.row_offset[slot + i] = static_cast<double>(offset[i]);
-    }
-    normal += 3 * rows;
-    offset += rows;
-    const int thrust = RECORDED_QP_SLOT_ACCELERATION(k, 0);
+    const int slot = RECORDED_QP_SLOT_ACCELERATION(k, 0);
     for (int c = 0; c < 3; ++c) {
-      s.row_normal[c][thrust] = -static_cast<double>(problem.thrust_normal[static_cast<std::size_t>(3 * k + c)]);
+      s.row_normal[c][slot] = -static_cast<double>(problem.thrust_normal[static_cast<std::size_t>(3 * k + c)]);
     }
-    s.row_offset[thrust] = -static_cast<double>(problem.thrust_offset[static_cast<std::size_t>(k)]);
+    s.row_offset[slot] = -static_cast<double>(problem.thrust_offset[static_cast<std::size_t>(k)]);
   }
 }
 
@@ -72,10 +76,16 @@ void loadGuess(recorded_qp_solver& s, const RecordedProblem& problem, int rows) 
   const float* acceleration = problem.warm_acceleration.data();
   const float* thrust = problem.warm_thrust.data();
   for (int k = 0; k < kHorizon; ++k) {
-    for (int i = 0; i < rows; ++i) guess(s, RECORDED_QP_SLOT_POSITION(k, i), half_space[k * rows + i]);
+    for (int i = 0; i < rows; i += kStride) {
+      const int end = std::min(i + kStride, rows);
+      if (!anyAbove(half_space + k * rows + i, end - i)) continue;
+      for (int j = i; j < end; ++j) guess(s, RECORDED_QP_SLOT_POSITION(k, j), half_space[k * rows + j]);
+    }
     guess(s, RECORDED_QP_SLOT_ACCELERATION(k, 0), thrust[k]);
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 6 && anyAbove(velocity + 6 * k, 6); ++i) {
       guess(s, recorded_qp_bound_id(RECORDED_QP_OUTPUT_VELOCITY, i % 3, k, i / 3), velocity[6 * k + i]);
+    }
+    for (int i = 0; i < 6 && anyAbove(acceleration + 6 * k, 6); ++i) {
       guess(s, recorded_qp_bound_id(RECORDED_QP_OUTPUT_ACCELERATION, i % 3, k, i / 3), acceleration[6 * k + i]);
     }
   }
@@ -99,7 +109,6 @@ RecordedSolver::RecordedSolver(int rows, Method, double) : memory_(new Memory), 
   }
   memory_->functions.init(&memory_->solver, &memory_->tables);
   for (int k = 0; k < kHorizon; ++k) {
-    memory_->solver.row_count[RECORDED_QP_OUTPUT_POSITION][k] = rows;
     memory_->solver.row_count[RECORDED_QP_OUTPUT_ACCELERATION][k] = 1;
   }
 }
@@ -120,7 +129,11 @@ void RecordedSolver::load(const RecordedProblem& problem, bool warm) {
       s.state_linear[k][3 + i] = -stateWeight(k, 3 + i) * static_cast<double>(problem.v_ref[at]);
     }
   }
-  loadRows(s, problem, rows_);
+  for (int k = 0; k < kHorizon; ++k) {
+    memory_->functions.set_rows(&s, RECORDED_QP_OUTPUT_POSITION, k, rows_, problem.normal.data() + 3 * rows_ * k,
+                                problem.offset.data() + rows_ * k);
+  }
+  loadThrust(s, problem);
   s.warm_count = 0;
   if (warm) loadGuess(s, problem, rows_);
 }

@@ -116,16 +116,22 @@ static double qpc_residual(qpc_solver* s) {
   return largest;
 }
 
-/* Moves the multipliers to where the working set's equations hold; entries that reach the end of their range on the
-   way leave or change part. From a guess this is the way to a consistent start, and it removes rounding errors. */
-static int qpc_settle(const qpc_tables* t, qpc_solver* s) {
+/* Moves the multipliers of a guess to where the working set's equations hold; entries that reach the end of their range
+   on the way leave or change part. The dual objective rises all the way. */
+static int qpc_settle(qpc_solver* s) {
   double rate[QPC_ACTIVE_PADDED];
   while (s->iterations < QPC_MAX_CHANGES) {
     int blocking;
-    qpc_update_outputs(t, s);
-    qpc_residual(s);
+    for (int i = 0; i < s->active_count; ++i) {
+      double sum = s->target[i];
+      for (int c = 0; c < QPC_COMPONENTS; ++c) sum -= s->normal[c][i] * s->free_output[s->point[c][i]];
+      s->column[i] = sum;
+    }
+    for (int i = s->active_count; i < QPC_ROUND_UP(s->active_count, QPC_WIDTH); ++i) s->column[i] = 0.0;
     qpc_multiply_inverse(s, s->column, s->direction);
-    for (int i = 0; i < QPC_ROUND_UP(s->active_count, QPC_WIDTH); ++i) rate[i] = -s->direction[i];
+    for (int i = 0; i < s->active_count; i += QPC_WIDTH) {
+      QPC_STORE(&rate[i], QPC_LOAD(&s->lambda[i]) - QPC_LOAD(&s->direction[i]));
+    }
     const double step = qpc_longest_step(s, rate, &blocking);
     if (step >= 1.0) {
       qpc_step(s, rate, 1.0);
@@ -136,6 +142,15 @@ static int qpc_settle(const qpc_tables* t, qpc_solver* s) {
     if (!qpc_pass_edge(s, blocking, rate[blocking] < 0.0)) qpc_remove(s, blocking);
   }
   return 0;
+}
+
+/* A step of iterative refinement: `column` holds the residual at the present outputs. */
+static void qpc_correct(qpc_solver* s) {
+  qpc_multiply_inverse(s, s->column, s->direction);
+  for (int i = 0; i < s->active_count; ++i) {
+    const double lambda = s->lambda[i] + s->direction[i];
+    s->lambda[i] = lambda < s->least[i] ? s->least[i] : lambda > s->most[i] ? s->most[i] : lambda;
+  }
 }
 
 static int qpc_is_row(const qpc_solver* s, int id) {
@@ -168,7 +183,7 @@ static int qpc_start(const qpc_tables* t, qpc_solver* s) {
     if (soft) curvature += row.compliance;
     if (curvature > 1e-8 * self) qpc_append(s, &row, lambda, soft, curvature);
   }
-  return s->active_count == 0 || qpc_settle(t, s) ? QPC_SOLVED : QPC_CAP;
+  return s->active_count == 0 || qpc_settle(s) ? QPC_SOLVED : QPC_CAP;
 }
 
 static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) {
@@ -185,10 +200,11 @@ static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) 
       qpc_row row;
       if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;
       status = qpc_enter(t, s, &row, violation);
-    } else if (qpc_residual(s) <= tolerance) {
-      break;
-    } else if (++refinements > 5 || !qpc_settle(t, s)) {
-      status = QPC_CAP;
+    } else {
+      const int exact = qpc_residual(s) <= tolerance;
+      qpc_correct(s);
+      if (exact) break;
+      if (++refinements > 8) status = QPC_CAP;
     }
   }
   return status;

@@ -37,7 +37,7 @@ static const qpc_mask qpc_lane_number = {0, 1,
                                          4, 5, 6, 7,
 #endif
 };
-#define QPC_TILE 2 /* vectors per block that are summed in registers; QPC_POINTS_PADDED is a multiple */
+#define QPC_TILE (QPC_WIDTH == 8 && QPC_POINTS_PADDED % 32 == 0 ? 4 : 2) /* vectors per block that are summed in registers; QPC_POINTS_PADDED is a multiple */
 #define QPC_LOAD(pointer) (*(const qpc_vector_memory*)(pointer))
 #define QPC_STORE(pointer, value) (*(qpc_vector_memory*)(pointer) = (value))
 #define QPC_BROADCAST(value) ((value) - (qpc_vector){0})
@@ -71,6 +71,21 @@ static int qpc_is_finite(double value) {
 
 static void qpc_clear(double* first, int count) {
   for (int i = 0; i < count; ++i) first[i] = 0.0;
+}
+
+/* Sums the products with 0, which are 0 unless a number is not finite. */
+static int qpc_all_finite(const double* first, int count) {
+  qpc_vector sum = {0}, other = {0};
+  double rest = 0.0;
+  int i = 0;
+  for (; i + 2 * QPC_WIDTH <= count; i += 2 * QPC_WIDTH) {
+    sum += QPC_LOAD(first + i) * 0.0;
+    other += QPC_LOAD(first + i + QPC_WIDTH) * 0.0;
+  }
+  for (; i < count; ++i) rest += first[i] * 0.0;
+  sum += other;
+  for (i = 0; i < QPC_WIDTH; ++i) rest += sum[i];
+  return rest == 0.0;
 }
 
 QPC_FUNCTION qpc_vector qpc_select(qpc_mask mask, qpc_vector yes, qpc_vector no) {

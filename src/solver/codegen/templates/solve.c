@@ -15,6 +15,25 @@ void qpc_function(init)(qpc_solver* s, const qpc_tables* t) {
   }
 }
 
+void qpc_function(set_rows)(qpc_solver* s, int output, int index, int count, const float* normals,
+                            const float* offsets) {
+  const int slot = qpc_first_slot[output] + index * qpc_stage_stride[output];
+  s->row_count[output][index] = count;
+  if (count < 0 || count > qpc_most_rows[output]) return; /* solve reports it */
+  if (qpc_row_stride[output] == 1) {
+    for (int i = 0; i < count; ++i) {
+      for (int c = 0; c < QPC_COMPONENTS; ++c) s->row_normal[c][slot + i] = normals[QPC_COMPONENTS * i + c];
+    }
+    for (int i = 0; i < count; ++i) s->row_offset[slot + i] = offsets[i];
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    const int at = slot + i * qpc_row_stride[output];
+    for (int c = 0; c < QPC_COMPONENTS; ++c) s->row_normal[c][at] = normals[QPC_COMPONENTS * i + c];
+    s->row_offset[at] = offsets[i];
+  }
+}
+
 static int qpc_quadratics_valid(const qpc_solver* s) {
   if (s->quadratic_count < 0 || s->quadratic_count > QPC_MAX_QUADRATIC) return 0;
   for (int i = 0; i < s->quadratic_count; ++i) {
@@ -71,12 +90,8 @@ static int qpc_recover(const qpc_tables* t, qpc_solver* s) {
                       : 0.0;
   }
   qpc_roll_out(t, s);
-  double finite = 0.0;
-  for (int k = 0; k < QPC_HORIZON; ++k) {
-    for (int i = 0; i < QPC_STATES; ++i) finite += s->x[k + 1][i] * 0.0;
-    for (int j = 0; j < QPC_INPUTS; ++j) finite += s->u[k][j] * 0.0;
-  }
-  return finite == 0.0;
+  return qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS) &&
+         qpc_all_finite(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES);
 }
 
 static void qpc_clear_result(qpc_solver* s) {
