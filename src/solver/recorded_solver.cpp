@@ -99,7 +99,7 @@ struct RecordedSolver::Memory {
   Functions functions;
 };
 
-RecordedSolver::RecordedSolver(int rows, Method, double) : memory_(new Memory), rows_(rows) {
+RecordedSolver::RecordedSolver(int rows, Method method, double tolerance) : memory_(new Memory), rows_(rows) {
   if (rows > RECORDED_QP_MAX_ROWS_POSITION) throw std::invalid_argument("the generated solver has too few rows");
   memory_->functions = selectFunctions();
   recorded_qp_parameters parameters;
@@ -108,6 +108,8 @@ RecordedSolver::RecordedSolver(int rows, Method, double) : memory_(new Memory), 
     throw std::runtime_error("set-up of the generated solver failed");
   }
   memory_->functions.init(&memory_->solver, &memory_->tables);
+  memory_->solver.wanted_method = method == Method::kActiveSet ? RECORDED_QP_ACTIVE_SET : RECORDED_QP_INTERIOR_POINT;
+  memory_->solver.tolerance = tolerance;
   for (int k = 0; k < kHorizon; ++k) {
     memory_->solver.row_count[RECORDED_QP_OUTPUT_ACCELERATION][k] = 1;
   }

@@ -39,9 +39,12 @@ GeneratedCode generate(const Description& d) {
   replaceAll(source, "qpc_solver.h", d.name + ".h");
   source += templateText("common.c") + "\n" + writeConstants(d, s, layout) + "\n" + writeEvaluate(d, s) + "\n";
   source += writeStage(d, s);
-  for (const char* part : {"sweep.c", "setup.c", "rows.c", "active_set.c", "active_set_loop.c", "solve.c"}) {
+  for (const char* part : {"sweep.c", "setup.c", "rows.c", "active_set.c", "active_set_loop.c"}) {
     source += "\n" + templateText(part);
   }
+  source += "\n/* ---- Interior point: Riccati recursion in straight-line stages. ---- */\n\n" + writeRiccati(d, s);
+  source += "\n" + templateText("interior_point.c") + "\n" + templateText("interior_point_loop.c");
+  source += "\n" + templateText("solve.c");
   return {named(header, d.name), named(source, d.name)};
 }
 

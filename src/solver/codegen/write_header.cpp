@@ -97,6 +97,13 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "ACTIVE_PADDED", roundUp(d.max_active, kWidth));
   define(out, "MAX_CHANGES", d.max_changes);
   define(out, "MAX_QUADRATIC", d.max_quadratic);
+  define(out, "STAGES_PADDED", roundUp(d.horizon, kWidth));
+  define(out, "ENTRIES", std::max(layout.row_slots, kWidth) + 2 * s.blockCount() * layout.points_padded,
+         "rows, lower bounds, upper bounds");
+  const int z = d.states + (d.rate_cost.empty() ? 0 : d.inputs);
+  define(out, "GAINS", d.inputs * z);
+  define(out, "LOWERS", std::max(1, d.inputs * (d.inputs + 1) / 2));
+  define(out, "WEIGHTS", s.components * (s.components + 1) / 2);
   out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). */\n";
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     const std::string name = upperCase(d.outputs[o].name);

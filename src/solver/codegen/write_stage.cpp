@@ -141,16 +141,23 @@ void addScalarTerm(std::ostringstream& out, bool& first, const Expression& entry
   out << variable;
 }
 
+void writeOrderedInputs(std::ostringstream& out, const Description& d, const Structure& s) {
+  out << "/* Inputs in the caller's order. */\n"
+         "static void qpc_order_inputs(qpc_solver* s, double (*u)[QPC_INPUTS]) {\n"
+         "  for (int k = 0; k < QPC_HORIZON; ++k) {\n";
+  for (int i = 0; i < d.inputs; ++i) {
+    out << "    u[k][" << i << "] = s->free_input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
+        << s.input_index[at(i)] << "];\n";
+  }
+  out << "  }\n}\n\n";
+}
+
 void writeRollOut(std::ostringstream& out, const Description& d, const Structure& s) {
-  out << "/* The result in the caller's order: inputs, and the states that follow from them. */\n"
+  out << "/* The states that follow from the inputs. */\n"
          "static void qpc_roll_out(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n"
          "  for (int i = 0; i < QPC_STATES; ++i) s->x[0][i] = s->x0[i];\n"
          "  for (int k = 0; k < QPC_HORIZON; ++k) {\n"
-         "    const double* x = s->x[k];\n    double* u = s->u[k];\n    double* next = s->x[k + 1];\n";
-  for (int i = 0; i < d.inputs; ++i) {
-    out << "    u[" << i << "] = s->free_input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
-        << s.input_index[at(i)] << "];\n";
-  }
+         "    const double *x = s->x[k], *u = s->u[k];\n    double* next = s->x[k + 1];\n    (void)u;\n";
   for (int i = 0; i < d.states; ++i) {
     bool first = true;
     const std::string row = std::to_string(s.state_index[at(i)]);
@@ -264,6 +271,7 @@ std::string writeStage(const Description& d, const Structure& s) {
   std::ostringstream out;
   writeChannels(out, d, s);
   writeGather(out, d, s);
+  writeOrderedInputs(out, d, s);
   writeRollOut(out, d, s);
   return out.str();
 }

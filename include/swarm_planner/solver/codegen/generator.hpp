@@ -36,6 +36,8 @@ std::string writeInterface(const Description& description, const Structure& stru
 std::string writeConstants(const Description& description, const Structure& structure, const Layout& layout);
 std::string writeEvaluate(const Description& description, const Structure& structure);
 std::string writeStage(const Description& description, const Structure& structure);
+/// The interior-point method's Riccati recursion, stage by stage in straight-line code.
+std::string writeRiccati(const Description& description, const Structure& structure);
 
 /// The text of a file in templates/, which the build embeds.
 /// @throws std::out_of_range if there is none of that name

@@ -3,6 +3,7 @@
 void qpc_function(init)(qpc_solver* s, const qpc_tables* t) {
   uint8_t* bytes = (uint8_t*)s;
   for (size_t i = 0; i < sizeof *s; ++i) bytes[i] = 0;
+  s->tolerance = 1e-8;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) {
     s->lower[i] = t->lower[i];
     s->upper[i] = t->upper[i];
@@ -68,8 +69,8 @@ static double qpc_free_response(const qpc_tables* t, qpc_solver* s) {
   return size;
 }
 
-/* Inputs from the multipliers, states by roll-out. 0 if a number is not finite. */
-static int qpc_recover(const qpc_tables* t, qpc_solver* s) {
+/* Inputs, multipliers and slacks from the working set. */
+static void qpc_recover(const qpc_tables* t, qpc_solver* s) {
   for (int b = 0; b < QPC_BLOCKS; ++b) {
     for (int j = 0; j < QPC_RESPONSE_PADDED; j += QPC_WIDTH) {
       qpc_vector sum = QPC_LOAD(&s->free_input[b][j]);
@@ -89,9 +90,7 @@ static int qpc_recover(const qpc_tables* t, qpc_solver* s) {
                       ? (s->lambda[i] - s->row_linear[i]) * s->flexibility[i]
                       : 0.0;
   }
-  qpc_roll_out(t, s);
-  return qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS) &&
-         qpc_all_finite(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES);
+  qpc_order_inputs(s, s->u);
 }
 
 static void qpc_clear_result(qpc_solver* s) {
@@ -100,17 +99,33 @@ static void qpc_clear_result(qpc_solver* s) {
   s->active_count = 0;
 }
 
+static int qpc_run(const qpc_tables* t, qpc_solver* s) {
+  if (!qpc_group_rows(s) || !qpc_quadratics_valid(s)) return QPC_BAD_DATA;
+  const double size = qpc_free_response(t, s);
+  if (!qpc_is_finite(size)) return QPC_BAD_DATA;
+  int status = QPC_CAP;
+  if (s->wanted_method == QPC_ACTIVE_SET) {
+    status = qpc_active_set(t, s, 1e-11 * (1.0 + size));
+    for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+    if (status == QPC_SOLVED) qpc_recover(t, s);
+  }
+  if (status == QPC_CAP) {
+    s->method = QPC_INTERIOR_POINT;
+    status = qpc_interior_point(t, s);
+  }
+  if (status != QPC_SOLVED) return status;
+  qpc_roll_out(t, s);
+  return qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS) &&
+                 qpc_all_finite(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES)
+             ? QPC_SOLVED
+             : QPC_BAD_DATA;
+}
+
 int qpc_function(solve)(const qpc_tables* t, qpc_solver* s) {
   s->iterations = 0;
   s->method = QPC_ACTIVE_SET;
   s->active_count = 0;
-  s->status = QPC_BAD_DATA;
-  if (qpc_group_rows(s) && qpc_quadratics_valid(s)) {
-    const double size = qpc_free_response(t, s);
-    if (qpc_is_finite(size)) s->status = qpc_active_set(t, s, 1e-11 * (1.0 + size));
-  }
-  for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
-  if (s->status == QPC_SOLVED && !qpc_recover(t, s)) s->status = QPC_BAD_DATA;
+  s->status = qpc_run(t, s);
   if (s->status != QPC_SOLVED) qpc_clear_result(s);
   return s->status;
 }

@@ -64,6 +64,9 @@ typedef struct {
   int32_t warm_id[QPC_MAX_ACTIVE];
   double warm_multiplier[QPC_MAX_ACTIVE];
 
+  int32_t wanted_method;                             /* QPC_ACTIVE_SET, which falls back, or QPC_INTERIOR_POINT */
+  double tolerance;                                  /* of the interior-point method: duality gap in the cost */
+
   /* Result. */
   double u[QPC_HORIZON][QPC_INPUTS];
   double x[QPC_HORIZON + 1][QPC_STATES];
@@ -97,4 +100,24 @@ typedef struct {
   double direction[QPC_ACTIVE_PADDED];
   double column[QPC_ACTIVE_PADDED];
   double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED];
+  /* Interior point, by entry: row slots, then lower bounds, then upper bounds, by place. */
+  double ip_lambda[QPC_ENTRIES];                     /* multiplier */
+  double ip_room[QPC_ENTRIES];                       /* n . y + slack - offset */
+  double ip_slack[QPC_ENTRIES];                      /* 0: hard */
+  double ip_reserve[QPC_ENTRIES];                    /* multiplier of slack >= 0; hard: 1 */
+  double ip_quadratic[QPC_ENTRIES];
+  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + lambda slack inverse_reserve) */
+  double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
+  double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
+  double ip_target[QPC_ENTRIES];
+  double ip_step[4][QPC_ENTRIES];                    /* directions of lambda, room, slack, reserve */
+  double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
+  double ip_diagonal[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double ip_input[QPC_HORIZON][QPC_INPUTS];
+  double ip_gain[QPC_HORIZON][QPC_GAINS];
+  double ip_lower[QPC_HORIZON][QPC_LOWERS];
+  double ip_pivot[QPC_HORIZON][QPC_INPUTS];
+  double ip_constant[QPC_HORIZON][QPC_INPUTS];
 } qpc_solver;
