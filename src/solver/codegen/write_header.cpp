@@ -99,7 +99,7 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "MAX_QUADRATIC", d.max_quadratic);
   define(out, "STAGES_PADDED", roundUp(d.horizon, kWidth));
   define(out, "ENTRIES", std::max(layout.row_slots, kWidth) + 2 * s.blockCount() * layout.points_padded,
-         "rows, lower bounds, upper bounds");
+         "all rows and bounds");
   const int z = d.states + (d.rate_cost.empty() ? 0 : d.inputs);
   define(out, "GAINS", d.inputs * z);
   define(out, "LOWERS", std::max(1, d.inputs * (d.inputs + 1) / 2));

@@ -132,22 +132,14 @@ class RiccatiWriter {
     return p;
   }
 
-  /// Weights of an output's rows, quadratic terms and bounds at the stage; the bounds' are diagonal.
+  /// Weights of an output's rows, quadratic terms and bounds at the stage; bounds alone have a diagonal.
   AtomMatrix weights(int o) const {
     const int size = d_.outputs[at(o)].size();
-    const std::string output = std::to_string(o);
     AtomMatrix w(size, size);
     for (int i = 0; i < size; ++i) {
       for (int j = 0; j < size; ++j) {
-        std::string code;
-        if (usesRows(o) || d_.max_quadratic > 0) {
-          code = "s->ip_weight[" + output + "][" + std::to_string(packed(i, j)) + "][k]";
-        }
-        if (i == j && d_.outputs[at(o)].bounded) {
-          code += (code.empty() ? "" : " + ") + std::string("s->ip_diagonal[qpc_output_place[") + output + "][" +
-                  std::to_string(i) + "] + k]";
-        }
-        if (!code.empty()) w(i, j) = Atom("(" + code + ")");
+        if (i != j && !usesRows(o) && d_.max_quadratic == 0) continue;
+        w(i, j) = Atom("s->ip_weight[" + std::to_string(o) + "][" + std::to_string(packed(i, j)) + "][k]");
       }
     }
     return w;

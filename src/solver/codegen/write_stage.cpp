@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <algorithm>
 #include <sstream>
 
 #include "swarm_planner/solver/codegen/generator.hpp"
@@ -212,15 +213,22 @@ std::string writeConstants(const Description& d, const Structure& s, const Layou
     }
     out << "},\n";
   }
-  out << "};\nstatic const int qpc_bound_penalty[QPC_BLOCKS][QPC_CHANNELS] = {\n";
-  for (const Block& block : s.blocks) {
-    out << "    {";
-    for (const auto& channel : block.channels) {
-      out << (channel.first < 0 ? 0 : d.outputs[at(channel.first)].bound_penalty + 1) << ", ";
-    }
-    out << "},\n";
-  }
   out << "};\n";
+  const auto channelTable = [&](const char* name, auto entry) {
+    out << "static const int " << name << "[QPC_BLOCKS][QPC_CHANNELS] = {\n";
+    for (const Block& block : s.blocks) {
+      out << "    {";
+      for (std::size_t i = 0; i < block.channels.size(); ++i) out << (i > 0 ? ", " : "") << entry(block.channels[i]);
+      out << "},\n";
+    }
+    out << "};\n";
+  };
+  using Channel = std::pair<int, int>;
+  channelTable("qpc_bound_penalty", [&](const Channel& channel) {
+    return channel.first < 0 ? 0 : d.outputs[at(channel.first)].bound_penalty + 1;
+  });
+  channelTable("qpc_channel_output", [](const Channel& channel) { return std::max(channel.first, 0); });
+  channelTable("qpc_channel_component", [](const Channel& channel) { return std::max(channel.second, 0); });
   return out.str();
 }
 

@@ -5,6 +5,7 @@
 
 typedef struct {
   int id;
+  int output, index;         /* of the stage */
   int place[QPC_COMPONENTS]; /* flat, in qpc_solver.output */
   double normal[QPC_COMPONENTS];
   double offset;
@@ -34,6 +35,8 @@ static int qpc_load_slot(const qpc_tables* t, const qpc_solver* s, int id, qpc_r
   const int within = id - qpc_first_slot[o];
   const int index = qpc_row_stride[o] == 1 ? within / qpc_stage_stride[o] : within % qpc_row_stride[o];
   const int penalty = s->row_penalty[id];
+  row->output = o;
+  row->index = index;
   for (int c = 0; c < QPC_COMPONENTS; ++c) {
     row->place[c] = qpc_output_place[o][c] + index;
     row->normal[c] = s->row_normal[c][id];
@@ -48,15 +51,15 @@ static int qpc_load_slot(const qpc_tables* t, const qpc_solver* s, int id, qpc_r
 static int qpc_load_bound(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
   const int is_upper = (id - QPC_FIRST_BOUND_ID) % 2;
   const int place = (id - QPC_FIRST_BOUND_ID) / 2;
-  const int channel = place % QPC_POINTS_PADDED / QPC_HORIZON;
-  const int block = place / QPC_POINTS_PADDED;
+  const int block = place / QPC_POINTS_PADDED, channel = place % QPC_POINTS_PADDED / QPC_HORIZON;
   const int penalty = qpc_bound_penalty[block][channel];
+  row->output = qpc_channel_output[block][channel];
+  row->index = place % QPC_POINTS_PADDED % QPC_HORIZON;
   for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    /* Any component of the row will do that belongs to the bound's block. */
-    row->place[c] = QPC_ALIGNED ? c * QPC_POINTS_PADDED + place % QPC_POINTS_PADDED : place;
+    row->place[c] = qpc_output_place[row->output][c] + row->index;
     row->normal[c] = 0.0;
   }
-  row->normal[QPC_ALIGNED ? block : 0] = is_upper ? -1.0 : 1.0;
+  row->normal[qpc_channel_component[block][channel]] = is_upper ? -1.0 : 1.0;
   row->offset = is_upper ? -s->upper[place] : s->lower[place];
   row->linear = t->penalty_linear[penalty];
   row->compliance = t->compliance[penalty];
@@ -68,8 +71,10 @@ static int qpc_load_row(const qpc_tables* t, const qpc_solver* s, int id, qpc_ro
   if (id < QPC_FIRST_BOUND_ID) return qpc_load_slot(t, s, id, row);
   if (!QPC_IS_QUADRATIC(id)) return qpc_load_bound(t, s, id, row);
   const int i = id - QPC_FIRST_QUADRATIC_ID;
+  row->output = s->quadratic_output[i];
+  row->index = s->quadratic_index[i];
   for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    row->place[c] = qpc_output_place[s->quadratic_output[i]][c] + s->quadratic_index[i];
+    row->place[c] = qpc_output_place[row->output][c] + row->index;
     row->normal[c] = s->quadratic_normal[i][c];
   }
   row->offset = s->quadratic_offset[i];

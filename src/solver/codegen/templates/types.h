@@ -100,19 +100,22 @@ typedef struct {
   double direction[QPC_ACTIVE_PADDED];
   double column[QPC_ACTIVE_PADDED];
   double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED];
-  /* Interior point, by entry: row slots, then lower bounds, then upper bounds, by place. */
-  double ip_lambda[QPC_ENTRIES];                     /* multiplier */
-  double ip_room[QPC_ENTRIES];                       /* n . y + slack - offset */
-  double ip_slack[QPC_ENTRIES];                      /* 0: hard */
-  double ip_reserve[QPC_ENTRIES];                    /* multiplier of slack >= 0; hard: 1 */
+  /* Interior point: the rows and bounds that it was given, and their variables. */
+  int32_t ip_count;
+  int32_t ip_id[QPC_ENTRIES];
+  int32_t ip_place[QPC_COMPONENTS][QPC_ENTRIES];
+  int32_t ip_group[2][QPC_ENTRIES];                  /* output and stage index */
+  double ip_normal[QPC_COMPONENTS][QPC_ENTRIES];
+  double ip_offset[QPC_ENTRIES];
   double ip_quadratic[QPC_ENTRIES];
-  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + lambda slack inverse_reserve) */
+  double ip_variable[4][QPC_ENTRIES];                /* multiplier, room, slack (0: hard), reserve (hard: 1) */
+  double ip_step[4][QPC_ENTRIES];
+  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier slack inverse_reserve) */
   double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
   double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
-  double ip_target[QPC_ENTRIES];
-  double ip_step[4][QPC_ENTRIES];                    /* directions of lambda, room, slack, reserve */
+  double ip_pull[QPC_ENTRIES];                       /* force along the normal */
+  double ip_value[QPC_ENTRIES];                      /* n . y of the outputs solved for */
   double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
-  double ip_diagonal[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_input[QPC_HORIZON][QPC_INPUTS];
