@@ -18,6 +18,14 @@ std::size_t NeighbourLists::bucketOf(const Cell& cell) const {
   return (mixed ^ mixed >> 29) & (bucket_begin_.size() - 2);
 }
 
+void NeighbourLists::reserve(std::size_t boxes) {
+  constexpr std::size_t kMostNeighbours = 1000;
+  if (boxes == 0) return;
+  offsets_.reserve(boxes + 1);
+  members_.reserve(boxes);
+  neighbours_.reserve(boxes * std::min(boxes - 1, kMostNeighbours));
+}
+
 void NeighbourLists::build(const std::vector<Box>& boxes) {
   sortIntoBuckets(boxes);
   offsets_.assign(1, 0);

@@ -5,6 +5,12 @@
 
 namespace swarm_planner {
 
+void SolveOrder::reserve(std::size_t uavs) {
+  round_of_.reserve(uavs);
+  round_begin_.reserve(uavs + 1);
+  order_.reserve(uavs);
+}
+
 void SolveOrder::build(const NeighbourLists& neighbours) {
   const std::size_t count = neighbours.size();
   round_of_.assign(count, 0);

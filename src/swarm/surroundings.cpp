@@ -6,13 +6,16 @@
 
 namespace swarm_planner {
 
-Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count)
+Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles)
     : parameters_(parameters),
       horizontal_(parameters.limits.pair_distance + parameters.limits.tracking_margin),
       vertical_(parameters.limits.pair_distance_vertical + parameters.limits.tracking_margin),
       motions_(uav_count),
       known_(uav_count, 0),
-      areas_(uav_count) {}
+      areas_(uav_count) {
+  obstacles_.reserve(max_obstacles);
+  neighbours_.reserve(uav_count);
+}
 
 void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch) {
   obstacles_.clear();

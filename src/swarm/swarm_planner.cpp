@@ -18,6 +18,12 @@ namespace {
 constexpr double kClockTolerance = 0.05;  // odometry stamped later than this is from the future [s]
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+/// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
+std::size_t maxObstacles(const Mission& mission) {
+  constexpr std::size_t kTracks = 256;
+  return std::max(kTracks, mission.scenario.obstacles.size());
+}
+
 /// Why a measurement cannot be planned from; kNone if it can.
 Reason judge(const UavMeasurement& measurement, double now, double timeout) {
   if (!measurement.received) return Reason::kWaitingForOdometry;
@@ -36,7 +42,7 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
-        surroundings(parameters, uavs.size()),
+        surroundings(parameters, uavs.size(), maxObstacles(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -45,8 +51,9 @@ class SwarmPlanner::Impl {
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
+    order.reserve(uavs.size());
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, uavs.size() + mission.scenario.obstacles.size());
+      planners.emplace_back(parameters, mission.scenario.workspace, uavs.size() + maxObstacles(mission));
     }
   }
 

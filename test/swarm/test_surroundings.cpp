@@ -38,7 +38,7 @@ class SurroundingsTest : public ::testing::Test {
 };
 
 TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
-  Surroundings surroundings(flight_.parameters, 1);
+  Surroundings surroundings(flight_.parameters, 1, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch - 0.3, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 1U);
@@ -50,7 +50,7 @@ TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
 }
 
 TEST_F(SurroundingsTest, DropOldTracks) {
-  Surroundings surroundings(flight_.parameters, 1);
+  Surroundings surroundings(flight_.parameters, 1, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   const double timeout = flight_.parameters.input.track_timeout;
   const auto seenAfter = [&](double age) {
@@ -64,7 +64,7 @@ TEST_F(SurroundingsTest, DropOldTracks) {
 
 // One track's nonsense must not spoil the plans of all.
 TEST_F(SurroundingsTest, AreFiniteWhateverTheStamp) {
-  Surroundings surroundings(flight_.parameters, 1);
+  Surroundings surroundings(flight_.parameters, 1, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   for (const double stamp : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, 0, 0), stamp)}, kEpoch, kEpoch);
@@ -74,7 +74,7 @@ TEST_F(SurroundingsTest, AreFiniteWhateverTheStamp) {
 
 TEST_F(SurroundingsTest, KeepTheDistancesOfTheParameters) {
   const LimitParameters& limits = flight_.parameters.limits;
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 8, 0));
   surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
@@ -89,7 +89,7 @@ TEST_F(SurroundingsTest, KeepTheDistancesOfTheParameters) {
 }
 
 TEST_F(SurroundingsTest, WaiveTheMarginWhereTheStartIsTooClose) {
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 2.1, 0));
   surroundings.setObstacles({track(Vector3(1.4, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
@@ -104,7 +104,7 @@ TEST_F(SurroundingsTest, WaiveTheMarginWhereTheStartIsTooClose) {
 TEST_F(SurroundingsTest, HoldOnlyWhatCanBeReached) {
   const double reach = flight_.parameters.limits.max_speed * kHorizon * flight_.problem.dt;
   const auto bodiesWith = [&](double distance) {
-    Surroundings surroundings(flight_.parameters, 2);
+    Surroundings surroundings(flight_.parameters, 2, 4);
     surroundings.setPlanning(0, flight_.problem.start);
     surroundings.setPlan(1, resting(Vector3(0, distance + 2.0, 0)), kEpoch);
     surroundings.setObstacles({track(Vector3(distance + 1.0, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
@@ -115,7 +115,7 @@ TEST_F(SurroundingsTest, HoldOnlyWhatCanBeReached) {
 }
 
 TEST_F(SurroundingsTest, HoldWhatComesWithinReach) {
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   // Both are far away now and here within the horizon.
   surroundings.setPlan(1, straightPlan(Vector3(0, 50, 0), Vector3(0, -8, 0), kEpoch, flight_.problem.dt), kEpoch);
@@ -125,14 +125,14 @@ TEST_F(SurroundingsTest, HoldWhatComesWithinReach) {
 
 TEST_F(SurroundingsTest, ReachFartherFromAFastStart) {
   flight_.problem.start.v = Vector3(0, 12, 0);  // blown away: faster than max_speed
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 60, 0));
   EXPECT_EQ(collected(surroundings).size(), 1U);
 }
 
 TEST_F(SurroundingsTest, HoldEveryOtherUavButNotOneself) {
-  Surroundings surroundings(flight_.parameters, 4);
+  Surroundings surroundings(flight_.parameters, 4, 4);
   for (std::size_t uav = 0; uav < 4; ++uav) {
     surroundings.setResting(uav, Vector3(0, 3.0 * static_cast<double>(uav), 0));
     surroundings.setPlanning(uav, {Vector3(0, 3.0 * static_cast<double>(uav), 0), Vector3::Zero(), Vector3::Zero()});
@@ -144,7 +144,7 @@ TEST_F(SurroundingsTest, HoldEveryOtherUavButNotOneself) {
 }
 
 TEST_F(SurroundingsTest, TakeOverANewPlanWithinTheCycle) {
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 5, 0));
   surroundings.setPlanning(1, {Vector3(0, 5, 0), Vector3::Zero(), Vector3::Zero()});
@@ -157,7 +157,7 @@ TEST_F(SurroundingsTest, TakeOverANewPlanWithinTheCycle) {
 }
 
 TEST_F(SurroundingsTest, StopALastPlanAtItsEnd) {
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   const double dt = flight_.problem.dt;
   const Trajectory old = straightPlan(Vector3(0, 5, 0), Vector3(1, 0, 0), kEpoch - 10.0 * dt, dt);
@@ -169,7 +169,7 @@ TEST_F(SurroundingsTest, StopALastPlanAtItsEnd) {
 }
 
 TEST_F(SurroundingsTest, PartUavsOnTopOfEachOther) {
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   for (std::size_t uav = 0; uav < 2; ++uav) {
     surroundings.setResting(uav, Vector3::Zero());
     surroundings.setPlanning(uav, {});
@@ -182,7 +182,7 @@ TEST_F(SurroundingsTest, PartUavsOnTopOfEachOther) {
 
 TEST_F(SurroundingsTest, AreEmptyWithoutAvoidance) {
   flight_.parameters.limits.avoidance = false;
-  Surroundings surroundings(flight_.parameters, 2);
+  Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 1, 0));
   surroundings.setObstacles({track(Vector3(1, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);

@@ -22,6 +22,8 @@ class NeighbourLists {
     const std::uint32_t* end() const { return last; }
   };
 
+  /// Memory for sets of `boxes` boxes, however crowded up to a thousand.
+  void reserve(std::size_t boxes);
   /// Empty boxes (as Box is constructed) have no neighbours.
   void build(const std::vector<Box>& boxes);
   List of(std::size_t box) const {

@@ -13,6 +13,8 @@ namespace swarm_planner {
 /// that solving a round's UAVs in any order or at once gives what solving all one by one by index gives.
 class SolveOrder {
  public:
+  /// Memory for `uavs` UAVs.
+  void reserve(std::size_t uavs);
   void build(const NeighbourLists& neighbours);
 
   std::size_t rounds() const { return round_begin_.size() - 1; }

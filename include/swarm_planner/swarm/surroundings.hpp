@@ -14,7 +14,8 @@ namespace swarm_planner {
 /// newest plan of every UAV.
 class Surroundings {
  public:
-  Surroundings(const Parameters& parameters, std::size_t uav_count);
+  /// Up to `max_obstacles` obstacles before memory has to grow.
+  Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles);
 
   /// Predicts the tracks to `epoch`. A track older than track_timeout at `now` is left out.
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch);

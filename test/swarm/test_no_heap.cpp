@@ -1,0 +1,184 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// A cycle that allocates can wait for another thread's lock or for memory from the system: the deadline is missed on
+// the one day on which it matters. Here malloc and its family count.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "perfect_flight.hpp"
+#include "swarm_planner/config/paper_scenarios.hpp"
+
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SWARM_PLANNER_COUNTS_ALLOCATIONS 1
+#else
+#define SWARM_PLANNER_COUNTS_ALLOCATIONS 0
+#endif
+
+namespace {
+
+/// Calls into the heap by any thread while `counting`.
+std::atomic<bool> counting{false};
+std::atomic<std::int64_t> calls{0};
+
+void count() {
+  if (counting.load(std::memory_order_relaxed)) calls.fetch_add(1, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+#if SWARM_PLANNER_COUNTS_ALLOCATIONS
+// Take the place of the C library's own, which operator new and Eigen call too.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void __libc_free(void* memory);
+
+void* malloc(std::size_t size) {
+  count();
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t number, std::size_t size) {
+  count();
+  return __libc_calloc(number, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  count();
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  count();
+  return __libc_memalign(alignment, size);
+}
+void free(void* memory) {
+  if (memory != nullptr) count();
+  __libc_free(memory);
+}
+}
+#endif
+
+namespace swarm_planner {
+namespace {
+
+/// Runs `work` and returns how often it called into the heap.
+template <class Function>
+std::int64_t heapCalls(const Function& work) {
+  calls = 0;
+  counting = true;
+  work();
+  counting = false;
+  return calls;
+}
+
+class NoHeap : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (SWARM_PLANNER_COUNTS_ALLOCATIONS == 0) GTEST_SKIP() << "allocations can be counted with glibc only";
+  }
+};
+
+/// Flies `cycles` cycles and returns how often plan() called into the heap after the first `warm_up` ones.
+std::int64_t heapCallsOfFlight(const Mission& mission, int warm_up, int cycles,
+                               const std::function<void(int, Snapshot&)>& tamper = nullptr) {
+  SwarmPlanner planner(mission);
+  const double period = mission.parameters.time.cycle_period;
+  Snapshot snapshot;
+  snapshot.uavs.resize(mission.scenario.uavs.size());
+  std::int64_t sum = 0;
+  for (int cycle = 0; cycle < cycles; ++cycle) {
+    snapshot.now = cycle * period;
+    for (std::size_t i = 0; i < snapshot.uavs.size(); ++i) {
+      const bool flies = cycle > 0 && planner.report().uavs[i].planned;
+      if (cycle == 0) snapshot.uavs[i].p = mission.scenario.uavs[i].start;
+      if (flies) {
+        const KinematicState x = planner.committed(i).at(snapshot.now);
+        snapshot.uavs[i].p = x.p;
+        snapshot.uavs[i].v = x.v;
+      }
+      snapshot.uavs[i].received = true;
+      snapshot.uavs[i].stamp = snapshot.now;
+    }
+    snapshot.obstacles.clear();
+    for (const ScenarioObstacle& obstacle : mission.scenario.obstacles) {
+      TrackedObstacle track;
+      track.shape = makeObstacle(obstacle).movedBy(snapshot.now);
+      track.stamp = snapshot.now;
+      snapshot.obstacles.push_back(track);
+    }
+    if (tamper) tamper(cycle, snapshot);
+    const std::int64_t of_cycle = heapCalls([&] { planner.plan(snapshot, snapshot.now + period); });
+    if (cycle >= warm_up) sum += of_cycle;
+  }
+  return sum;
+}
+
+/// Outside of the test, so that no compiler can see that it is not needed.
+std::unique_ptr<std::vector<double>> kept;
+
+// The counter has to count: without this a wrong set-up would pass everything below.
+TEST_F(NoHeap, TheCounterCounts) {
+  EXPECT_EQ(heapCalls([] {}), 0);
+  EXPECT_EQ(heapCalls([] { kept = std::make_unique<std::vector<double>>(1000); }), 2);
+  EXPECT_EQ(kept->size(), 1000U);
+  EXPECT_EQ(heapCalls([] { kept.reset(); }), 2);
+  EXPECT_GT(heapCalls([] { SwarmPlanner planner(makeTestMission({Vector3::Zero()}, {Vector3::UnitX()}, 1.0)); }), 10);
+}
+
+TEST_F(NoHeap, FlyingAloneAllocatesNothing) {
+  const Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(500, 0, 10)}, 3.0);
+  EXPECT_EQ(heapCallsOfFlight(mission, 1, 300), 0);
+}
+
+// UAVs that begin apart and come together: more and more of them have to be kept clear of.
+TEST_F(NoHeap, UavsThatConvergeAllocateNothing) {
+  const Mission mission = makeMission(circleSwap(12, 60.0, 1), {}, "circle_swap");
+  EXPECT_EQ(heapCallsOfFlight(mission, 1, 150), 0);
+}
+
+TEST_F(NoHeap, TheSwarmAmongMovingObstaclesAllocatesNothing) {
+  EXPECT_EQ(heapCallsOfFlight(makeMission(paperSix(), {}, "paper_six"), 1, 350), 0);
+}
+
+TEST_F(NoHeap, SeveralThreadsAllocateNothing) {
+  const Mission mission = makeMission(paperScaling(16), {{"threads", 3}}, "paper_16");
+  EXPECT_EQ(heapCallsOfFlight(mission, 1, 60), 0);
+}
+
+TEST_F(NoHeap, FallbacksAllocateNothing) {
+  // Odometry comes and goes, tracks grow old, UAVs are blown into each other.
+  const auto tamper = [](int cycle, Snapshot& snapshot) {
+    if (cycle < 5) return;
+    if (cycle % 7 == 0) snapshot.uavs[1].received = false;
+    if (cycle % 11 == 0) snapshot.uavs[2].p.x() = std::nan("");
+    if (cycle % 13 < 3) snapshot.uavs[3].stamp -= 2.0;
+    if (cycle % 17 == 0) snapshot.uavs[4].p = snapshot.uavs[5].p;
+    if (cycle % 5 == 0) snapshot.obstacles.clear();
+  };
+  EXPECT_EQ(heapCallsOfFlight(makeMission(paperSix(), {}, "paper_six"), 1, 300, tamper), 0);
+}
+
+TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {
+  const Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(200, 0, 10)}, 3.0);
+  const auto tamper = [](int cycle, Snapshot& snapshot) {
+    for (int i = 0; i < std::min(cycle / 2, 50); ++i) {
+      TrackedObstacle track;
+      track.shape = Superellipsoid(i, Vector3(4.0 * i, i % 2 == 0 ? 6.0 : -6.0, 10), Vector3::Constant(1.0),
+                                   Vector3::Constant(2.0), 0.0, Vector3::Zero());
+      track.stamp = snapshot.now;
+      snapshot.obstacles.push_back(track);
+    }
+  };
+  EXPECT_EQ(heapCallsOfFlight(mission, 1, 120, tamper), 0);
+}
+
+}  // namespace
+}  // namespace swarm_planner
