@@ -43,8 +43,8 @@ test_packages=(
   python3-nav-msgs
   python3-rosgraph-msgs
   python3-rospy
+  python3-tf2-msgs
   python3-trajectory-msgs
-  tf2-tools
 )
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)

@@ -36,8 +36,11 @@ ScenarioUav paperUav(std::size_t number, double y, double z) {
 /// `uavs` UAVs, `columns` of them along y before the next row in z; the first at (0, spacing, spacing).
 std::vector<ScenarioUav> grid(int uavs, int columns, double spacing) {
   std::vector<ScenarioUav> list;
+  list.reserve(static_cast<std::size_t>(uavs));
   for (int i = 0; i < uavs; ++i) {
-    list.push_back(paperUav(list.size() + 1, spacing * (1 + i % columns), spacing * (1 + i / columns)));
+    const int column = i % columns;
+    const int row = i / columns;
+    list.push_back(paperUav(list.size() + 1, spacing * (1 + column), spacing * (1 + row)));
   }
   return list;
 }

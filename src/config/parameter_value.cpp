@@ -89,7 +89,7 @@ std::optional<std::string> overrideNameFault(const std::string& name) {
 }
 
 std::optional<std::string> overrideFault(const std::string& name, double value) {
-  if (const std::optional<std::string> name_fault = overrideNameFault(name)) return name_fault;
+  if (std::optional<std::string> name_fault = overrideNameFault(name)) return name_fault;
   const ParameterEntry& entry = *findParameter(name);
   if (isLegal(entry, value)) return std::nullopt;
   return "found " + foundText(value) + ", expected " + expectedValue(entry, false);

@@ -35,8 +35,8 @@ std::string excerpt(const std::string& text) {
 
 }  // namespace
 
-YamlNode::YamlNode(YAML::Node node, std::string key, const YamlSource& source)
-    : node_(std::move(node)), key_(std::move(key)), source_(&source) {}
+YamlNode::YamlNode(const YAML::Node& node, std::string key, const YamlSource& source)
+    : node_(node), key_(std::move(key)), source_(&source) {}
 
 std::optional<YamlNode> YamlNode::parse(const std::string& text, const YamlSource& source) {
   try {

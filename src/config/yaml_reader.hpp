@@ -30,7 +30,7 @@ using YamlScalar = std::variant<bool, int, double, std::string>;
 /// boolean, and numbers must be finite unless the range says otherwise.
 class YamlNode {
  public:
-  YamlNode(YAML::Node node, std::string key, const YamlSource& source);
+  YamlNode(const YAML::Node& node, std::string key, const YamlSource& source);
 
   /// The root of the only document in `text`; nothing after a fault about syntax, an empty text or more documents.
   static std::optional<YamlNode> parse(const std::string& text, const YamlSource& source);

@@ -134,10 +134,11 @@ void addCurvatures(const Matrix3& hessian, int stage, Qp& qp) {
   }
 }
 
-void setCost(const UavProblem& problem, const QpModels& models, const Trajectory& iterate, Qp& qp) {
+void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
   StageFrames frames;
   findStageFrames(problem, iterate, frames);
   const bool straight = hasOneTangent(frames);
+  const QpModels models = makeQpModels(*problem.parameters);
   qp.setModel(straight ? models.straight : models.corner);
   qp.axes.setIdentity();
   if (straight) qp.axes << frames[1].foot.tangent, frames[1].horizontal, frames[1].vertical;
@@ -171,10 +172,10 @@ QpModels makeQpModels(const Parameters& parameters) {
   return models;
 }
 
-void linearise(const UavProblem& problem, const QpModels& models, const Trajectory& iterate, double band, Qp& qp) {
+void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp) {
   qp.start = problem.start;
   qp.clear();
-  setCost(problem, models, iterate, qp);
+  setCost(problem, iterate, qp);
 
   Box box;
   const bool bounded = problem.bounds.workspace.max.allFinite();

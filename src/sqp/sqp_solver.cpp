@@ -7,6 +7,8 @@
 #include <utility>
 
 
+#include "swarm_planner/sqp/linearisation.hpp"
+
 namespace swarm_planner {
 namespace {
 
@@ -22,8 +24,8 @@ double largestMove(const Trajectory& from, const Trajectory& to) {
 
 }  // namespace
 
-SqpSolver::SqpSolver(const QpModels& models, std::unique_ptr<QpSolver> qp_solver)
-    : models_(models), qp_solver_(std::move(qp_solver)), qp_(std::make_unique<Qp>()), solution_(std::make_unique<QpSolution>()) {}
+SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
+    : qp_solver_(std::move(qp_solver)), qp_(std::make_unique<Qp>()), solution_(std::make_unique<QpSolution>()) {}
 
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
   const SqpParameters& settings = problem.parameters->sqp;
@@ -48,7 +50,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
 
 QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, int iteration) {
   const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
-  linearise(problem, models_, plan, band, *qp_);
+  linearise(problem, plan, band, *qp_);
   for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], *qp_);
   const QpStatus status = qp_solver_->solve(*qp_, *solution_);
   Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];

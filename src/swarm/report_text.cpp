@@ -18,7 +18,7 @@ const char* reasonText(Reason reason) {
     case Reason::kOdometryFromFuture:
       return "odometry is stamped in the future";
     case Reason::kOdometryNotFinite:
-      return "odometry is not finite";
+      return "odometry is not finite or absurdly large";
     case Reason::kConstraintsViolated:
       return "no plan keeps all distances and limits; flying the least violating one";
     case Reason::kSolverFailed:

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -16,6 +17,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kClockTolerance = 0.05;  // odometry stamped later than this is from the future [s]
+constexpr double kLargest = 1e8;          // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
@@ -24,10 +26,13 @@ std::size_t maxObstacles(const Mission& mission) {
   return std::max(kTracks, mission.scenario.obstacles.size());
 }
 
+/// False for NaN too.
+bool isPlausible(const Vector3& x) { return (x.array().abs() < kLargest).all(); }
+
 /// Why a measurement cannot be planned from; kNone if it can.
 Reason judge(const UavMeasurement& measurement, double now, double timeout) {
   if (!measurement.received) return Reason::kWaitingForOdometry;
-  if (!measurement.p.allFinite() || !measurement.v.allFinite() || !std::isfinite(measurement.stamp)) {
+  if (!isPlausible(measurement.p) || !isPlausible(measurement.v) || !std::isfinite(measurement.stamp)) {
     return Reason::kOdometryNotFinite;
   }
   if (measurement.stamp > now + kClockTolerance) return Reason::kOdometryFromFuture;

@@ -35,7 +35,7 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, do
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
     : parameters_(parameters),
-      sqp_(makeQpModels(parameters), std::make_unique<GeneratedSolver>(std::move(tables))) {
+      sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
   problem_.bounds = FlightBounds(parameters, workspace ? &*workspace : nullptr);

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "known_optimum.hpp"
-#include "interior_point.hpp"
+#include "reference/interior_point.hpp"
 
 namespace swarm_planner {
 namespace {

@@ -232,6 +232,7 @@ TEST(Odometry, OfAbsurdSizeDoesNotTouchTheOthers) {
         snapshot.uavs[1].v.y() = -absurd;
       });
       EXPECT_EQ(report.uavs[0].state, UavState::kTracking) << absurd;
+      EXPECT_EQ(report.uavs[1].reason, Reason::kOdometryNotFinite) << absurd;
       EXPECT_TRUE(flight.planner().committed(0).knots.back().p.allFinite()) << absurd;
     }
     EXPECT_NEAR(flight.vehicle(0).p.y(), 0.0, 0.5) << absurd;

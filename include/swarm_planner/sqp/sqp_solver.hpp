@@ -6,7 +6,6 @@
 
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/qp.hpp"
-#include "swarm_planner/sqp/linearisation.hpp"
 
 namespace swarm_planner {
 
@@ -22,8 +21,8 @@ struct SqpResult {
 /// penalty function, repeat, at most max_iterations times. The plan returned is never worse than the initial guess.
 class SqpSolver {
  public:
-  /// `qp_solver` has to take QPs of both models.
-  SqpSolver(const QpModels& models, std::unique_ptr<QpSolver> qp_solver);
+  /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
+  explicit SqpSolver(std::unique_ptr<QpSolver> qp_solver);
 
   /// Improves `plan`, which has to start at problem.start (a roll-out of any jerks).
   SqpResult solve(const UavProblem& problem, Trajectory& plan);
@@ -34,7 +33,6 @@ class SqpSolver {
   /// Moves `plan` towards the QP's answer as far as the merit decreases. Returns how far any knot moved [m].
   double acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit);
 
-  QpModels models_;
   std::unique_ptr<QpSolver> qp_solver_;
   std::unique_ptr<Qp> qp_;
   std::unique_ptr<QpSolution> solution_;

@@ -46,7 +46,7 @@ enum class Reason : std::uint8_t {
   kWaitingForStart,     ///< autostart is off
   kOdometryStale,       ///< older than odometry_timeout
   kOdometryFromFuture,
-  kOdometryNotFinite,
+  kOdometryNotFinite,    ///< NaN, infinite or of a size that no UAV is at
   kConstraintsViolated,  ///< the newest plan needs slack
   kSolverFailed,         ///< the QP had no answer; the committed plan goes on
 };

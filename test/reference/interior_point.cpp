@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-#include "interior_point.hpp"
+#include "reference/interior_point.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include "riccati.hpp"
+#include "reference/riccati.hpp"
 #include "swarm_planner/solver/qp.hpp"
 
 namespace swarm_planner {

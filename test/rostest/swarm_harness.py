@@ -1,0 +1,201 @@
+# Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+"""What the tests with nodes share: waiting, recording, and vehicles that fly every trajectory perfectly."""
+
+import json
+import math
+import os
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from swarm_planner.msg import PlannerStatus, SwarmPlan
+from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import MultiDOFJointTrajectory
+
+# Wall time that anything may take on a slow, busy machine [s].
+PATIENCE = 40.0
+
+
+def wait_for(condition, what, timeout=PATIENCE):
+    """Returns the first true value of condition(); fails the test after `timeout` seconds of wall time."""
+    end = time.time() + timeout
+    while time.time() < end and not rospy.is_shutdown():
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError('waited in vain for ' + what)
+
+
+def wait_for_summary(path, timeout=PATIENCE):
+    """The summary that quad_sim_node writes at the end of a run."""
+
+    def read():
+        if not os.path.exists(path):
+            return None
+        with open(path) as file:
+            line = file.readline()
+        return json.loads(line) if line.endswith('\n') else None
+
+    return wait_for(read, 'the summary of the run', timeout)
+
+
+class Recorder:
+    """Keeps every message of a topic."""
+
+    def __init__(self, topic, message_type):
+        self._lock = threading.Lock()
+        self._messages = []
+        self._subscriber = rospy.Subscriber(topic, message_type, self._receive, tcp_nodelay=True)
+
+    def _receive(self, message):
+        with self._lock:
+            self._messages.append(message)
+
+    def all(self):
+        with self._lock:
+            return list(self._messages)
+
+    def count(self):
+        with self._lock:
+            return len(self._messages)
+
+    def clear(self):
+        with self._lock:
+            self._messages = []
+
+    def last(self):
+        with self._lock:
+            return self._messages[-1] if self._messages else None
+
+    def wait_for_more(self, count, timeout=PATIENCE):
+        """Waits for `count` further messages and returns them."""
+        before = self.count()
+        wait_for(lambda: self.count() >= before + count,
+                 '%d messages on %s' % (count, self._subscriber.resolved_name), timeout)
+        return self.all()[before:]
+
+
+class Planner:
+    """What planner_node tells."""
+
+    def __init__(self, name='planner_node'):
+        self.status = Recorder(name + '/status', PlannerStatus)
+        self.plans = Recorder(name + '/plans', SwarmPlan)
+
+    def uav(self, name):
+        """The newest status of a UAV, or None."""
+        status = self.status.last()
+        return next((uav for uav in status.uavs if uav.name == name), None) if status else None
+
+    def wait_for_uav(self, name, condition, what):
+        def holds():
+            uav = self.uav(name)
+            return uav if uav and condition(uav) else None
+        return wait_for(holds, '%s of %s' % (what, name))
+
+    def wait_for_start(self):
+        return wait_for(lambda: self.status.last() and self.status.last().started and self.status.last(),
+                        'the start of the run')
+
+
+def odometry(stamp, position, velocity=(0, 0, 0), yaw=0.0, frame='map'):
+    """An odometry message; `velocity` is written into the twist as it is."""
+    message = Odometry()
+    message.header.stamp = stamp
+    message.header.frame_id = frame
+    message.child_frame_id = 'base_link'
+    pose = message.pose.pose
+    pose.position.x, pose.position.y, pose.position.z = position
+    pose.orientation.z = math.sin(0.5 * yaw)
+    pose.orientation.w = math.cos(0.5 * yaw)
+    linear = message.twist.twist.linear
+    linear.x, linear.y, linear.z = velocity
+    return message
+
+
+def publish_static_frame(frame, position, yaw, parent='map'):
+    """Publishes a frame that stands still; keep the publisher that is returned."""
+    transform = TransformStamped()
+    transform.header.frame_id = parent
+    transform.child_frame_id = frame
+    translation = transform.transform.translation
+    translation.x, translation.y, translation.z = position
+    transform.transform.rotation.z = math.sin(0.5 * yaw)
+    transform.transform.rotation.w = math.cos(0.5 * yaw)
+    publisher = rospy.Publisher('/tf_static', TFMessage, queue_size=1, latch=True)
+    publisher.publish(TFMessage([transform]))
+    return publisher
+
+
+def sample(trajectory, stamp):
+    """Position and velocity of a trajectory message at a time, linear between its points."""
+    t = (stamp - trajectory.header.stamp).to_sec()
+    points = trajectory.points
+    times = [point.time_from_start.to_sec() for point in points]
+    after = next((i for i, each in enumerate(times) if each > t), len(points))
+    if after in (0, len(points)):
+        point = points[0 if after == 0 else -1]
+        share, other = 0.0, point
+    else:
+        point, other = points[after - 1], points[after]
+        share = (t - times[after - 1]) / (times[after] - times[after - 1])
+
+    def mix(a, b):
+        return tuple((1.0 - share) * getattr(a, axis) + share * getattr(b, axis) for axis in 'xyz')
+
+    return (mix(point.transforms[0].translation, other.transforms[0].translation),
+            mix(point.velocities[0].linear, other.velocities[0].linear))
+
+
+class Vehicle:
+    """A UAV that is always exactly where its trajectory wants it, at rest at its start before. `spoil` may change
+    the odometry message before it is sent, or return None to keep it back."""
+
+    def __init__(self, name, start):
+        self.name = name
+        self.start = start
+        self.spoil = lambda message: message
+        self.trajectories = Recorder(name + '/command/trajectory', MultiDOFJointTrajectory)
+        self._publisher = rospy.Publisher(name + '/odometry', Odometry, queue_size=1, tcp_nodelay=True)
+
+    def state(self, stamp):
+        """The newest trajectory that has taken over by `stamp`, there."""
+        active = [each for each in self.trajectories.all()[-10:] if each.header.stamp <= stamp]
+        return sample(active[-1], stamp) if active else (self.start, (0.0, 0.0, 0.0))
+
+    def publish(self, stamp):
+        message = self.spoil(odometry(stamp, *self.state(stamp)))
+        if message is None:
+            return
+        try:
+            self._publisher.publish(message)
+        except rospy.ROSException:
+            pass  # the node shuts down
+
+
+class Fleet:
+    """Vehicles that publish odometry at 50 Hz of wall time until closed."""
+
+    def __init__(self, vehicles):
+        self.vehicles = vehicles
+        self._closed = threading.Event()
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def _run(self):
+        while not self._closed.wait(0.02) and not rospy.is_shutdown():
+            now = rospy.Time.now()
+            for vehicle in self.vehicles:
+                vehicle.publish(now)
+
+    def close(self):
+        self._closed.set()
+        self._thread.join()
+
+
+def three_in_line():
+    """The vehicles of scenarios/three_in_line.yaml."""
+    return [Vehicle('uav%d' % (i + 1), (0.0, 10.0 * i, 20.0)) for i in range(3)]
