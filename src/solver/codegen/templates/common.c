@@ -3,10 +3,9 @@
 #endif
 /* No call may appear that the source does not contain: no memset for a loop that clears. */
 #if defined(__clang__)
-#define QPC_ALONE __attribute__((no_builtin("memset", "memcpy", "memmove")))
+#pragma clang attribute push(__attribute__((no_builtin("memset", "memcpy", "memmove"))), apply_to = function)
 #elif defined(__GNUC__)
 #pragma GCC optimize("no-tree-loop-distribute-patterns")
-#define QPC_ALONE
 #endif
 /* The functions' suffix, the instruction set: give it when compiling, -DQPC_SET=avx2. */
 #ifndef QPC_SET

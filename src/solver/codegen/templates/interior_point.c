@@ -29,19 +29,23 @@ QPC_FUNCTION double qpc_sum(qpc_vector v) {
 
 QPC_FUNCTION qpc_vector qpc_only(qpc_mask mask, qpc_vector v) { return (qpc_vector)(mask & (qpc_mask)v); }
 
-/* Takes a step, and refreshes what depends on the variables. */
-static void qpc_ip_advance(qpc_solver* s, double step) {
+/* Takes a step, and refreshes what depends on the variables. Returns the sum of the complementarities, which is the
+   duality gap once the residuals have vanished. */
+static double qpc_ip_advance(qpc_solver* s, double step) {
+  qpc_vector gap = {0};
   for (int e = 0; e < s->ip_count; e += QPC_WIDTH) {
     qpc_vector v[4];
     for (int i = 0; i < 4; ++i) {
       v[i] = QPC_LOAD(&s->ip_variable[i][e]) + QPC_LOAD(&s->ip_step[i][e]) * step;
       QPC_STORE(&s->ip_variable[i][e], v[i]);
     }
+    gap += v[QPC_LAMBDA] * v[QPC_ROOM] + v[QPC_SLACK] * v[QPC_RESERVE];
     const qpc_vector inverse_reserve = 1.0 / (QPC_LOAD(&s->ip_quadratic[e]) * v[QPC_SLACK] + v[QPC_RESERVE]);
     QPC_STORE(&s->ip_residual[e], QPC_LOAD(&s->ip_residual[e]) * (1.0 - step));
     QPC_STORE(&s->ip_inverse_reserve[e], inverse_reserve);
     QPC_STORE(&s->ip_inverse_room[e], 1.0 / (v[QPC_ROOM] + v[QPC_LAMBDA] * v[QPC_SLACK] * inverse_reserve));
   }
+  return qpc_sum(gap);
 }
 
 /* Every row's force along its normal. */

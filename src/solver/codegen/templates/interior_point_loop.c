@@ -9,7 +9,10 @@ static double qpc_ip_place_variables(qpc_solver* s, int e, double value, double 
   const double room = value - s->ip_offset[e];
   double slack = 0.0, reserve = 1.0, lambda, start = room;
   if (compliance > 0.0) {
-    const double least = 2.0 * QPC_IP_START / (linear + 1.0);
+    /* Rows that are far off start with room in proportion: one that is much closer to its end than the others holds
+       all of them up. */
+    const double usual = 2.0 * QPC_IP_START / (linear + 1.0);
+    const double least = room < -10.0 * usual ? -0.1 * room : usual;
     slack = least + (room < least ? least - room : 0.0);
     start = room + slack;
     const double full = linear + slack / compliance;
@@ -154,13 +157,15 @@ static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
   const int pairs = qpc_ip_begin(s, &gap, &residual);
   /* The multipliers at the start are in no balance with the cost either: that too shrinks with every step. */
   residual = gap > residual ? gap : residual;
+  /* No more can be asked than the digits of what the start was away from the optimum. */
+  const double attainable = s->tolerance + 1e-12 * gap;
   for (int steps = 0; steps < QPC_IP_MAX_STEPS; ++steps, ++s->iterations) {
+    gap = qpc_ip_advance(s, step);
     if (!qpc_is_finite(gap)) return QPC_CAP;
-    qpc_ip_advance(s, step);
     if (gap <= s->tolerance && (residual <= s->tolerance || pairs == 0)) return QPC_SOLVED;
     qpc_ip_pulls(s, (qpc_aim){0.0, 0});
     qpc_ip_gather(s, (qpc_aim){0.0, 0});
-    if (!qpc_ip_factor(t, s)) return QPC_CAP;
+    if (!qpc_ip_factor(t, s)) break;
     qpc_ip_solve(t, s);
     const double affine = qpc_ip_directions(s, (qpc_aim){0.0, 0}, &linear, &quadratic);
     double left = (gap + affine * (linear + affine * quadratic)) / gap;
@@ -172,10 +177,9 @@ static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
     const double longest = qpc_ip_directions(s, (qpc_aim){centre, 1}, &linear, &quadratic);
     step = longest < 1.0 ? 0.995 * longest : 1.0;
     qpc_ip_move(t, s, step);
-    gap += step * (linear + step * quadratic);
     residual *= 1.0 - step;
   }
-  return QPC_CAP;
+  return gap <= attainable && residual <= attainable ? QPC_SOLVED : QPC_CAP;
 }
 
 /* Shows the scan all rows again. */

@@ -144,3 +144,7 @@ int qpc_function(solve)(const qpc_tables* t, qpc_solver* s) {
   if (s->status != QPC_SOLVED) qpc_clear_result(s);
   return s->status;
 }
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
