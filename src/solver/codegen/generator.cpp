@@ -39,7 +39,7 @@ GeneratedCode generate(const Description& d) {
   replaceAll(source, "qpc_solver.h", d.name + ".h");
   source += templateText("common.c") + "\n" + writeConstants(d, s, layout) + "\n" + writeEvaluate(d, s) + "\n";
   source += writeStage(d, s);
-  for (const char* part : {"sweep.c", "setup.c", "rows.c", "active_set.c", "active_set_loop.c"}) {
+  for (const char* part : {"sweep.c", "setup.c", "rows.c", "scale.c", "active_set.c", "active_set_loop.c"}) {
     source += "\n" + templateText(part);
   }
   source += "\n/* ---- Interior point: Riccati recursion in straight-line stages. ---- */\n\n" + writeRiccati(d, s);

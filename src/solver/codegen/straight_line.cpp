@@ -1,12 +1,31 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/solver/codegen/straight_line.hpp"
 
+#include <cctype>
+#include <set>
+
 namespace swarm_planner {
 namespace codegen {
+namespace {
+
+/// Adds every word of the line that is named like a variable of StraightLine, "v" and a number.
+void collectVariables(const std::string& code, std::set<std::string>& names) {
+  std::string word;
+  for (const char c : code + " ") {
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_') {
+      word += c;
+      continue;
+    }
+    if (word.size() > 1 && word[0] == 'v' && std::isdigit(static_cast<unsigned char>(word[1])) != 0) names.insert(word);
+    word.clear();
+  }
+}
+
+}  // namespace
 
 Atom StraightLine::assign(const std::string& value) {
   const std::string name = "v" + std::to_string(count_++);
-  out_ << "    const double " << name << " = " << value << ";\n";
+  lines_.push_back({name, "const double " + name + " = " + value + ";"});
   return Atom(name);
 }
 
@@ -81,7 +100,7 @@ Factor StraightLine::factor(const AtomMatrix& f) {
     std::vector<Term> terms;
     for (int l = 0; l < j; ++l) terms.push_back({factor.lower(j, l), scaled(j, l), true});
     const Atom pivot = sum(f(j, j), terms);
-    out_ << "    if (!(" << pivot.code() << " > 0.0)) return 0;\n";
+    lines_.push_back({"", "if (!(" + pivot.code() + " > 0.0)) return 0;"});
     factor.inverse.push_back(assign("1.0 / " + pivot.code()));
     ++operations_;
     for (int i = j + 1; i < n; ++i) {
@@ -111,7 +130,22 @@ void StraightLine::backwardSubstitute(const Factor& factor, AtomMatrix& m, int j
 }
 
 void StraightLine::store(const std::string& target, const Atom& value) {
-  out_ << "    " << target << " = " << value.code() << ";\n";
+  lines_.push_back({"", target + " = " + value.code() + ";"});
+}
+
+std::string StraightLine::text() const {
+  std::set<std::string> used;
+  std::vector<bool> kept(lines_.size());
+  for (std::size_t i = lines_.size(); i-- > 0;) {
+    const Line& line = lines_[i];
+    kept[i] = line.variable.empty() || used.count(line.variable) > 0;
+    if (kept[i]) collectVariables(line.code, used);
+  }
+  std::string text;
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (kept[i]) text += "    " + lines_[i].code + "\n";
+  }
+  return text;
 }
 
 }  // namespace codegen

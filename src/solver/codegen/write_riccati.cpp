@@ -74,7 +74,7 @@ class StageBuilder {
   static Atom atom(const Expression& e, const std::string& name, Place row, Place column) {
     if (e.isZero()) return Atom::zero();
     if (e.isOne()) return Atom::one();
-    if (e.isConstant()) return Atom(e.code());
+    if (e.isConstant()) return Atom(e.value() < 0.0 ? "(" + e.code() + ")" : e.code());
     return Atom("t->" + name + "[" + std::to_string(row.index) + "][" + std::to_string(column.index) + "][" +
                 std::to_string(row.block) + "]");
   }
@@ -226,12 +226,12 @@ class RiccatiWriter {
     }
     StraightLine code;
     const AtomMatrix next = step(code);
-    out_ << code.text();
     for (int i = 0; i < m_.z; ++i) {
       for (int j = 0; j <= i; ++j) {
-        if (pattern_[at(packed(i, j))]) out_ << "    next_p" << packed(i, j) << " = " << next(i, j).code() << ";\n";
+        if (pattern_[at(packed(i, j))]) code.store("next_p" + std::to_string(packed(i, j)), next(i, j));
       }
     }
+    out_ << code.text();
     out_ << "  }\n  return 1;\n}\n\n";
   }
 
@@ -249,17 +249,47 @@ class RiccatiWriter {
     return f;
   }
 
+  /// z at stage k of the present iterate.
+  AtomMatrix iterateState() const {
+    AtomMatrix z(m_.z, 1);
+    for (int i = 0; i < m_.z; ++i) {
+      z(i, 0) = i < d_.states ? Atom("s->x[k][" + std::to_string(i) + "]")
+                              : Atom("before[" + std::to_string(i - d_.states) + "]");
+    }
+    return z;
+  }
+
+  AtomMatrix iterateInput() const {
+    AtomMatrix u(m_.u, 1);
+    for (int i = 0; i < m_.u; ++i) u(i, 0) = Atom("s->u[k][" + std::to_string(i) + "]");
+    return u;
+  }
+
   void writeBackward() {
-    out_ << "/* Costates with the linear terms and the forces of rows and bounds, and the inputs' constant parts. */\n"
-            "static void qpc_ip_backward(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n  double ";
-    for (int i = 0; i < m_.z; ++i) out_ << (i > 0 ? ", " : "") << "next_c" << i << " = 0.0";
-    out_ << ";\n  for (int k = QPC_HORIZON - 1; k >= 0; --k) {\n";
+    out_ << "/* Costates of the cost's gradient at the iterate and the forces of rows and bounds, and the constant parts of\n"
+            "   the inputs' steps. */\n"
+            "static void qpc_ip_backward(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n";
+    for (int i = 0; i < m_.z; ++i) {
+      out_ << "  double next_c" << i << " = 0.0";
+      for (int j = 0; j < d_.states; ++j) {
+        if (m_.terminal(i, j).isZero()) continue;
+        out_ << " + " << m_.terminal(i, j).code() << " * s->x[QPC_HORIZON][" << j << "]";
+      }
+      out_ << ";\n";
+    }
+    out_ << "  for (int k = QPC_HORIZON - 1; k >= 0; --k) {\n"
+            "    const double* before = k > 0 ? s->u[k > 0 ? k - 1 : 0] : s->u_previous;\n    (void)before;\n";
     for (int i = 0; i < m_.z; ++i) {
       out_ << "    const double c" << i << " = next_c" << i;
       if (i < d_.states) out_ << " + s->state_linear[k][" << i << "]";
       out_ << ";\n";
     }
     StraightLine code;
+    writeBackwardStage(code);
+    out_ << code.text() << "  }\n}\n\n";
+  }
+
+  void writeBackwardStage(StraightLine& code) {
     AtomMatrix costate = column("c", m_.z);
     AtomMatrix slope(m_.u, 1);
     for (int i = 0; i < m_.u && d_.input_linear; ++i) {
@@ -270,8 +300,10 @@ class RiccatiWriter {
         costate = code.transposedProduct(c_[at(o)], force(o), costate, true);
       }
     }
+    slope = code.product(m_.r, iterateInput(), code.product(m_.cross, iterateState(), slope));
     slope = code.transposedProduct(m_.b, costate, slope);
-    AtomMatrix next = code.transposedProduct(m_.a, costate, AtomMatrix(m_.z, 1));
+    AtomMatrix next = code.transposedProduct(m_.cross, iterateInput(), code.product(m_.q, iterateState()));
+    next = code.transposedProduct(m_.a, costate, next);
     for (int o = 0; o < static_cast<int>(c_.size()); ++o) {
       if (!restricted(o) || !d_.outputs[at(o)].touchesInput()) continue;
       slope = code.transposedProduct(d_matrix_[at(o)], force(o), slope, true);
@@ -284,25 +316,22 @@ class RiccatiWriter {
     for (int i = 0; i < m_.u; ++i) constant(i, 0) = code.multiply(constant(i, 0), factor.inverse[at(i)]);
     code.backwardSubstitute(factor, constant, 0);
     for (int i = 0; i < m_.u; ++i) code.store("s->ip_constant[k][" + std::to_string(i) + "]", constant(i, 0));
-    out_ << code.text();
-    for (int i = 0; i < m_.z; ++i) out_ << "    next_c" << i << " = " << next(i, 0).code() << ";\n";
-    out_ << "  }\n}\n\n";
+    for (int i = 0; i < m_.z; ++i) code.store("next_c" + std::to_string(i), next(i, 0));
   }
 
   void writeForward() {
-    out_ << "/* Inputs, and the outputs that follow from them. */\n"
+    out_ << "/* Steps of the inputs, and of the outputs that follow from them. */\n"
             "static void qpc_ip_forward(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n";
-    for (int i = 0; i < d_.states; ++i) out_ << "  double next_z" << i << " = s->x0[" << i << "];\n";
-    for (int i = d_.states; i < m_.z; ++i) out_ << "  double next_z" << i << " = s->u_previous[" << i - d_.states << "];\n";
+    for (int i = 0; i < m_.z; ++i) out_ << "  double next_z" << i << " = 0.0;\n";
     out_ << "  for (int k = 0; k < QPC_HORIZON; ++k) {\n";
     for (int i = 0; i < m_.z; ++i) out_ << "    const double z" << i << " = next_z" << i << ";\n";
     StraightLine code;
     const AtomMatrix z = column("z", m_.z);
     AtomMatrix constant(m_.u, 1);
-    for (int i = 0; i < m_.u; ++i) constant(i, 0) = Atom("-s->ip_constant[k][" + std::to_string(i) + "]");
+    for (int i = 0; i < m_.u; ++i) constant(i, 0) = Atom("(-s->ip_constant[k][" + std::to_string(i) + "])");
     const AtomMatrix u = code.product(gain(), z, constant, true);
     const AtomMatrix next = code.product(m_.b, u, code.product(m_.a, z));
-    for (int i = 0; i < m_.u; ++i) code.store("s->u[k][" + std::to_string(i) + "]", u(i, 0));
+    for (int i = 0; i < m_.u; ++i) code.store("s->ip_input[k][" + std::to_string(i) + "]", u(i, 0));
     for (int o = 0; o < static_cast<int>(c_.size()); ++o) {
       if (!restricted(o)) continue;
       const bool touches = d_.outputs[at(o)].touchesInput();
@@ -312,9 +341,8 @@ class RiccatiWriter {
         code.store("s->output[qpc_output_place[" + std::to_string(o) + "][" + std::to_string(c) + "] + k]", y(c, 0));
       }
     }
-    out_ << code.text();
-    for (int i = 0; i < m_.z; ++i) out_ << "    next_z" << i << " = " << next(i, 0).code() << ";\n";
-    out_ << "  }\n}\n";
+    for (int i = 0; i < m_.z; ++i) code.store("next_z" + std::to_string(i), next(i, 0));
+    out_ << code.text() << "  }\n}\n";
   }
 
   AtomMatrix gain() const {

@@ -138,7 +138,7 @@ void addScalarTerm(std::ostringstream& out, bool& first, const Expression& entry
   if (entry.isZero()) return;
   out << (first ? "" : " + ");
   first = false;
-  if (!entry.isOne()) out << (entry.isConstant() ? entry.code() : "t->" + coefficient) << " * ";
+  if (!entry.isOne()) out << (entry.isConstant() ? "(" + entry.code() + ")" : "t->" + coefficient) << " * ";
   out << variable;
 }
 

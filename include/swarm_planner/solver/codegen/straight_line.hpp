@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
-#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace swarm_planner {
@@ -60,7 +60,8 @@ class StraightLine {
   void backwardSubstitute(const Factor& factor, AtomMatrix& m, int j);
   void store(const std::string& target, const Atom& value);
 
-  std::string text() const { return out_.str(); }
+  /// The code; assignments that nothing stored depends on are left out.
+  std::string text() const;
   /// Multiplications and additions written so far.
   int operations() const { return operations_; }
 
@@ -72,7 +73,11 @@ class StraightLine {
   Atom sum(const Atom& start, const std::vector<Term>& terms);
   Atom assign(const std::string& value);
 
-  std::ostringstream out_;
+  struct Line {
+    std::string variable;  ///< that the line defines; empty: a line with an effect
+    std::string code;
+  };
+  std::vector<Line> lines_;
   int count_ = 0;
   int operations_ = 0;
 };

@@ -45,6 +45,10 @@ static int qpc_load_slot(const qpc_tables* t, const qpc_solver* s, int id, qpc_r
   if (penalty > QPC_PENALTIES) return 0;
   row->linear = t->penalty_linear[penalty];
   row->compliance = t->compliance[penalty];
+  if (s->scaled && penalty > 0) {
+    row->linear /= s->row_scale[id];
+    row->compliance *= s->row_scale[id] * s->row_scale[id];
+  }
   return 1;
 }
 

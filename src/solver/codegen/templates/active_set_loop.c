@@ -172,8 +172,9 @@ static int qpc_start(const qpc_tables* t, qpc_solver* s) {
   for (int i = 0; i < s->quadratic_count + guesses && s->active_count < QPC_MAX_ACTIVE; ++i) {
     const int is_guess = i >= s->quadratic_count;
     const int id = is_guess ? s->warm_id[i - s->quadratic_count] : QPC_FIRST_QUADRATIC_ID + i;
-    const double lambda = is_guess ? s->warm_multiplier[i - s->quadratic_count] : 0.0;
+    double lambda = is_guess ? s->warm_multiplier[i - s->quadratic_count] : 0.0;
     if (is_guess && (!(lambda > 0.0) || !qpc_is_finite(lambda) || !qpc_is_row(s, id))) continue;
+    lambda /= qpc_scale_of(s, id);
     if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;
     const double self = qpc_gram_self(t, &row);
     const int soft = lambda > row.linear || row.linear <= 0.0;
@@ -189,13 +190,10 @@ static int qpc_start(const qpc_tables* t, qpc_solver* s) {
 static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) {
   double violation;
   int refinements = 0;
-  int check = 1;
   int status = qpc_start(t, s);
   while (status == QPC_SOLVED) {
     qpc_update_outputs(t, s);
-    const int id = check ? qpc_scan(s, tolerance, 1, &violation) : qpc_scan(s, tolerance, 0, &violation);
-    if (id == -2) return QPC_BAD_DATA;
-    check = 0;
+    const int id = qpc_scan(s, tolerance, &violation);
     if (id >= 0) {
       qpc_row row;
       if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;

@@ -3,10 +3,9 @@
 #endif
 /* No call may appear that the source does not contain: no memset for a loop that clears. */
 #if defined(__clang__)
-#define QPC_ALONE __attribute__((no_builtin("memset", "memcpy", "memmove")))
+#pragma clang attribute push(__attribute__((no_builtin("memset", "memcpy", "memmove"))), apply_to = function)
 #elif defined(__GNUC__)
 #pragma GCC optimize("no-tree-loop-distribute-patterns")
-#define QPC_ALONE
 #endif
 /* The functions' suffix, the instruction set: give it when compiling, -DQPC_SET=avx2. */
 #ifndef QPC_SET
@@ -29,14 +28,6 @@
 typedef double qpc_vector __attribute__((vector_size(QPC_WIDTH * 8)));
 typedef double qpc_vector_memory __attribute__((vector_size(QPC_WIDTH * 8), aligned(8), may_alias));
 typedef int64_t qpc_mask __attribute__((vector_size(QPC_WIDTH * 8)));
-static const qpc_mask qpc_lane_number = {0, 1,
-#if QPC_WIDTH >= 4
-                                         2, 3,
-#endif
-#if QPC_WIDTH >= 8
-                                         4, 5, 6, 7,
-#endif
-};
 #define QPC_TILE (QPC_WIDTH == 8 && QPC_POINTS_PADDED % 32 == 0 ? 4 : 2) /* vectors per block that are summed in registers; QPC_POINTS_PADDED is a multiple */
 #define QPC_LOAD(pointer) (*(const qpc_vector_memory*)(pointer))
 #define QPC_STORE(pointer, value) (*(qpc_vector_memory*)(pointer) = (value))

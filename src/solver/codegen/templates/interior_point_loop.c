@@ -9,7 +9,10 @@ static double qpc_ip_place_variables(qpc_solver* s, int e, double value, double 
   const double room = value - s->ip_offset[e];
   double slack = 0.0, reserve = 1.0, lambda, start = room;
   if (compliance > 0.0) {
-    const double least = 2.0 * QPC_IP_START / (linear + 1.0);
+    /* Rows that are far off start with room in proportion: one that is much closer to its end than the others holds
+       all of them up. */
+    const double usual = 2.0 * QPC_IP_START / (linear + 1.0);
+    const double least = room < -10.0 * usual ? -0.1 * room : usual;
     slack = least + (room < least ? least - room : 0.0);
     start = room + slack;
     const double full = linear + slack / compliance;
@@ -26,7 +29,8 @@ static double qpc_ip_place_variables(qpc_solver* s, int e, double value, double 
   s->ip_variable[QPC_SLACK][e] = slack;
   s->ip_variable[QPC_RESERVE][e] = reserve;
   for (int i = 0; i < 4; ++i) s->ip_step[i][e] = 0.0;
-  return qpc_magnitude(start - slack - room);
+  s->ip_residual[e] = room + slack - start;
+  return qpc_magnitude(s->ip_residual[e]);
 }
 
 /* Gives the method one more row or bound, which the scan then no longer sees. */
@@ -71,10 +75,9 @@ static double qpc_ip_screen(const qpc_tables* t, qpc_solver* s, int take, double
       qpc_vector size = {0};
       for (int c = 0; c < QPC_COMPONENTS; ++c) {
         const qpc_vector n = QPC_LOAD(&s->row_normal[c][s->group_slot[group] + i]);
-        qpc_vector diagonal;
-        for (int l = 0; l < QPC_WIDTH; ++l) {
-          const int k = index >= 0 ? index : i + l < QPC_HORIZON ? i + l : 0;
-          diagonal[l] = index >= 0 && l > 0 ? diagonal[0] : qpc_ip_gram_diagonal(t, o, c, k);
+        qpc_vector diagonal = QPC_BROADCAST(qpc_ip_gram_diagonal(t, o, c, index >= 0 ? index : i));
+        for (int l = 1; l < QPC_WIDTH && index < 0; ++l) {
+          diagonal[l] = qpc_ip_gram_diagonal(t, o, c, i + l < QPC_HORIZON ? i + l : 0);
         }
         size += n * n * diagonal;
       }
@@ -122,6 +125,7 @@ static int qpc_ip_begin(qpc_solver* s, double* gap, double* residual) {
     for (int i = 0; i < 4; ++i) s->ip_step[i][e] = 0.0;
     s->ip_quadratic[e] = 0.0;
     s->ip_offset[e] = -QPC_UNBOUNDED;
+    s->ip_residual[e] = 0.0;
     s->ip_value[e] = 0.0;
   }
   return pairs;
@@ -132,14 +136,14 @@ static void qpc_ip_solve(const qpc_tables* t, qpc_solver* s) {
   qpc_ip_forward(t, s);
 }
 
-/* Moves inputs and outputs a part of the way to those just solved for. */
-static void qpc_ip_move(qpc_solver* s, double step) {
-  double* u = &s->ip_input[0][0];
-  const double* target = &s->u[0][0];
-  for (int i = 0; i < QPC_HORIZON * QPC_INPUTS; ++i) u[i] += step * (target[i] - u[i]);
+/* Takes a step of inputs, states and outputs. */
+static void qpc_ip_move(const qpc_tables* t, qpc_solver* s, double step) {
+  for (int k = 0; k < QPC_HORIZON; ++k) {
+    for (int j = 0; j < QPC_INPUTS; ++j) s->u[k][j] += step * s->ip_input[k][j];
+  }
+  qpc_roll_out(t, s);
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; i += QPC_WIDTH) {
-    const qpc_vector y = QPC_LOAD(&s->ip_output[i]);
-    QPC_STORE(&s->ip_output[i], y + (QPC_LOAD(&s->output[i]) - y) * step);
+    QPC_STORE(&s->ip_output[i], QPC_LOAD(&s->ip_output[i]) + QPC_LOAD(&s->output[i]) * step);
   }
 }
 
@@ -147,15 +151,21 @@ static void qpc_ip_move(qpc_solver* s, double step) {
 static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
   double gap, residual, step = 0.0, linear, quadratic;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->ip_output[i] = s->free_output[i];
-  qpc_order_inputs(s, s->ip_input);
+  for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = 0.0; /* steps, from here on */
+  qpc_order_inputs(s, s->u);
+  qpc_roll_out(t, s);
   const int pairs = qpc_ip_begin(s, &gap, &residual);
+  /* The multipliers at the start are in no balance with the cost either: that too shrinks with every step. */
+  residual = gap > residual ? gap : residual;
+  /* No more can be asked than the digits of what the start was away from the optimum. */
+  const double attainable = s->tolerance + 1e-12 * gap;
   for (int steps = 0; steps < QPC_IP_MAX_STEPS; ++steps, ++s->iterations) {
+    gap = qpc_ip_advance(s, step);
     if (!qpc_is_finite(gap)) return QPC_CAP;
-    qpc_ip_advance(s, step);
-    if (gap <= s->tolerance && residual <= s->tolerance) return QPC_SOLVED;
+    if (gap <= s->tolerance && (residual <= s->tolerance || pairs == 0)) return QPC_SOLVED;
     qpc_ip_pulls(s, (qpc_aim){0.0, 0});
     qpc_ip_gather(s, (qpc_aim){0.0, 0});
-    if (!qpc_ip_factor(t, s)) return QPC_CAP;
+    if (!qpc_ip_factor(t, s)) break;
     qpc_ip_solve(t, s);
     const double affine = qpc_ip_directions(s, (qpc_aim){0.0, 0}, &linear, &quadratic);
     double left = (gap + affine * (linear + affine * quadratic)) / gap;
@@ -166,11 +176,10 @@ static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
     qpc_ip_solve(t, s);
     const double longest = qpc_ip_directions(s, (qpc_aim){centre, 1}, &linear, &quadratic);
     step = longest < 1.0 ? 0.995 * longest : 1.0;
-    qpc_ip_move(s, step);
-    gap += step * (linear + step * quadratic);
+    qpc_ip_move(t, s, step);
     residual *= 1.0 - step;
   }
-  return QPC_CAP;
+  return gap <= attainable && residual <= attainable ? QPC_SOLVED : QPC_CAP;
 }
 
 /* Shows the scan all rows again. */
@@ -179,11 +188,8 @@ static void qpc_ip_release(qpc_solver* s) {
   s->ip_count = 0;
 }
 
-/* The result: inputs, and the rows and bounds whose multiplier exceeds their room, as far as there is space. */
+/* The result: besides the inputs, the rows and bounds whose multiplier exceeds their room, as far as there is space. */
 static void qpc_ip_collect(qpc_solver* s) {
-  for (int k = 0; k < QPC_HORIZON; ++k) {
-    for (int j = 0; j < QPC_INPUTS; ++j) s->u[k][j] = s->ip_input[k][j];
-  }
   s->active_count = 0;
   for (int e = 0; e < s->ip_count && s->active_count < QPC_MAX_ACTIVE; ++e) {
     if (!(s->ip_variable[QPC_LAMBDA][e] > s->ip_variable[QPC_ROOM][e])) continue;
@@ -197,12 +203,11 @@ static void qpc_ip_collect(qpc_solver* s) {
    entry times the distance of the optimum from the one without rows, in the Hessian's metric. That distance is guessed
    from the row that needs most of it; a scan of all rows says whether the guess was right, and the last round takes
    every row. */
-static int qpc_interior_point(const qpc_tables* t, qpc_solver* s) {
+static int qpc_interior_point(const qpc_tables* t, qpc_solver* s, double tolerance) {
   double violation, reach = 0.0;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = s->free_output[i];
   s->iterations = 0;
   s->ip_count = 0;
-  if (qpc_scan(s, 0.0, 1, &violation) == -2) return QPC_BAD_DATA;
   const double distance = qpc_ip_screen(t, s, 0, 0.0);
   for (int round = 0; round < 3; ++round) {
     reach = round == 0 ? distance : round == 1 ? 16.0 * distance : QPC_UNBOUNDED;
@@ -214,7 +219,7 @@ static int qpc_interior_point(const qpc_tables* t, qpc_solver* s) {
     int status = qpc_ip_iterate(t, s);
     if (status == QPC_SOLVED) {
       for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = s->ip_output[i];
-      if (qpc_scan(s, 0.01 * s->tolerance, 0, &violation) >= 0) status = QPC_CAP;
+      if (qpc_scan(s, 0.01 * s->tolerance + tolerance, &violation) >= 0) status = QPC_CAP;
     }
     if (status == QPC_SOLVED) qpc_ip_collect(s);
     qpc_ip_release(s);

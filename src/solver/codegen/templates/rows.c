@@ -45,7 +45,6 @@ static int qpc_group_rows(qpc_solver* s) {
 typedef struct {
   qpc_vector violation;
   qpc_mask group;
-  qpc_vector finite; /* 0 as long as everything seen is finite */
 } qpc_best;
 
 QPC_FUNCTION qpc_vector qpc_maximum(qpc_vector a, qpc_vector b) { return qpc_select((qpc_mask)(a > b), a, b); }
@@ -67,12 +66,12 @@ QPC_FUNCTION qpc_vector qpc_row_violation(const qpc_solver* s, int group, int i)
   return violation;
 }
 
-QPC_FUNCTION void qpc_scan_group(const qpc_solver* s, int group, qpc_best* best, int check) {
+QPC_FUNCTION void qpc_scan_group(const qpc_solver* s, int group, qpc_best* best) {
   const int output = s->group_output[group], index = s->group_index[group], slot = s->group_slot[group];
   qpc_vector y[QPC_COMPONENTS];
   qpc_vector largest = {0};
-  for (int c = 0; c < QPC_COMPONENTS && index >= 0; ++c) {
-    y[c] = QPC_BROADCAST(s->output[qpc_output_place[output][c] + index]);
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    y[c] = QPC_BROADCAST(s->output[qpc_output_place[output][c] + (index < 0 ? 0 : index)]);
   }
   for (int i = 0; i < s->group_rows[group]; i += QPC_WIDTH) {
     qpc_vector violation = QPC_LOAD(&s->row_offset[slot + i]);
@@ -81,17 +80,15 @@ QPC_FUNCTION void qpc_scan_group(const qpc_solver* s, int group, qpc_best* best,
       violation -= QPC_LOAD(&s->row_normal[c][slot + i]) * y[c];
     }
     largest = qpc_maximum(violation, largest);
-    if (check) best->finite += violation * 0.0;
   }
   qpc_consider(best, largest, group);
 }
 
-QPC_FUNCTION void qpc_scan_bounds(const qpc_solver* s, int first, int count, qpc_best* best, int check) {
+QPC_FUNCTION void qpc_scan_bounds(const qpc_solver* s, int first, int count, qpc_best* best) {
   for (int i = first; i < first + count; i += QPC_WIDTH) {
     const qpc_vector y = QPC_LOAD(&s->output[i]);
     const qpc_vector below = QPC_LOAD(&s->lower[i]) - y, above = y - QPC_LOAD(&s->upper[i]);
     qpc_consider(best, qpc_maximum(below, above), -1 - i);
-    if (check) best->finite += (below + above) * 0.0;
   }
 }
 
@@ -115,24 +112,21 @@ static int qpc_found(const qpc_solver* s, int group, int lane, double* violation
   return s->group_slot[group] + at;
 }
 
-/* The most violated row or bound: its identity, or -1 if none is violated by more than the tolerance; -2 if
-   something is not finite (looked for only if `check`). Active rows are masked: see qpc_mask_row. */
-QPC_FUNCTION int qpc_scan(const qpc_solver* s, double tolerance, int check, double* violation) {
+/* The most violated row or bound: its identity, or -1 if none is violated by more than the tolerance. Active rows are
+   masked: see qpc_mask_row. */
+static int qpc_scan(const qpc_solver* s, double tolerance, double* violation) {
   qpc_best best;
   best.violation = QPC_BROADCAST(tolerance);
   best.group = (qpc_mask){0};
-  best.finite = QPC_BROADCAST(0.0);
-  for (int group = 0; group < s->group_count; ++group) qpc_scan_group(s, group, &best, check);
+  for (int group = 0; group < s->group_count; ++group) qpc_scan_group(s, group, &best);
   for (int b = 0; b < QPC_BLOCKS; ++b) {
     for (int range = 0; range < QPC_BOUND_RANGES; ++range) {
-      qpc_scan_bounds(s, b * QPC_POINTS_PADDED + qpc_bound_range[2 * range], qpc_bound_range[2 * range + 1], &best,
-                      check);
+      qpc_scan_bounds(s, b * QPC_POINTS_PADDED + qpc_bound_range[2 * range], qpc_bound_range[2 * range + 1], &best);
     }
   }
   int lane = -1;
   *violation = tolerance;
   for (int i = 0; i < QPC_WIDTH; ++i) {
-    if (check && best.finite[i] != 0.0) return -2;
     if (best.violation[i] > *violation) {
       *violation = best.violation[i];
       lane = i;

@@ -99,19 +99,34 @@ static void qpc_clear_result(qpc_solver* s) {
   s->active_count = 0;
 }
 
-static int qpc_run(const qpc_tables* t, qpc_solver* s) {
-  if (!qpc_group_rows(s) || !qpc_quadratics_valid(s)) return QPC_BAD_DATA;
-  const double size = qpc_free_response(t, s);
-  if (!qpc_is_finite(size)) return QPC_BAD_DATA;
+static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
   int status = QPC_CAP;
   if (s->wanted_method == QPC_ACTIVE_SET) {
-    status = qpc_active_set(t, s, 1e-11 * (1.0 + size));
+    status = qpc_active_set(t, s, tolerance);
     for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
     if (status == QPC_SOLVED) qpc_recover(t, s);
   }
   if (status == QPC_CAP) {
     s->method = QPC_INTERIOR_POINT;
-    status = qpc_interior_point(t, s);
+    status = qpc_interior_point(t, s, tolerance);
+  }
+  return status;
+}
+
+static int qpc_check_and_run(const qpc_tables* t, qpc_solver* s) {
+  if (!qpc_group_rows(s) || !qpc_quadratics_valid(s)) return QPC_BAD_DATA;
+  const int rows = qpc_look_at_rows(s);
+  const double size = qpc_free_response(t, s);
+  if (rows == QPC_ROWS_BAD || !qpc_is_finite(size)) return QPC_BAD_DATA;
+  s->scaled = rows == QPC_ROWS_UNUSUAL;
+  if (s->scaled) qpc_scale_rows(s, 0);
+  const int status = qpc_run(t, s, 1e-11 * (1.0 + size));
+  if (s->scaled) {
+    for (int i = 0; i < s->active_count; ++i) {
+      s->multiplier[i] *= qpc_scale_of(s, s->active_id[i]);
+      s->slack[i] /= qpc_scale_of(s, s->active_id[i]);
+    }
+    qpc_scale_rows(s, 1);
   }
   if (status != QPC_SOLVED) return status;
   qpc_roll_out(t, s);
@@ -125,7 +140,11 @@ int qpc_function(solve)(const qpc_tables* t, qpc_solver* s) {
   s->iterations = 0;
   s->method = QPC_ACTIVE_SET;
   s->active_count = 0;
-  s->status = qpc_run(t, s);
+  s->status = qpc_check_and_run(t, s);
   if (s->status != QPC_SOLVED) qpc_clear_result(s);
   return s->status;
 }
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif

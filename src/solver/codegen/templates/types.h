@@ -84,6 +84,8 @@ typedef struct {
   int32_t group_rows[QPC_GROUPS];
   int32_t group_output[QPC_GROUPS];
   int32_t group_index[QPC_GROUPS];
+  int32_t scaled;                                    /* some rows are scaled for this solve, by row_scale */
+  double row_scale[QPC_ROW_SLOTS];
   double free_output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double free_input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
@@ -114,11 +116,12 @@ typedef struct {
   double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
   double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
   double ip_pull[QPC_ENTRIES];                       /* force along the normal */
-  double ip_value[QPC_ENTRIES];                      /* n . y of the outputs solved for */
+  double ip_value[QPC_ENTRIES];                      /* n . y of the outputs' step */
+  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room, 0 after the first full step */
   double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
   double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
-  double ip_input[QPC_HORIZON][QPC_INPUTS];
+  double ip_input[QPC_HORIZON][QPC_INPUTS];          /* step of the inputs */
   double ip_gain[QPC_HORIZON][QPC_GAINS];
   double ip_lower[QPC_HORIZON][QPC_LOWERS];
   double ip_pivot[QPC_HORIZON][QPC_INPUTS];
