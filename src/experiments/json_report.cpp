@@ -1,76 +1,14 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/experiments/json_report.hpp"
 
-#include <cmath>
-#include <cstdio>
-#include <locale>
-#include <optional>
-#include <sstream>
+#include "swarm_planner/experiments/json_object.hpp"
 
 namespace swarm_planner {
 namespace {
 
-std::string jsonText(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-      quoted += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof(code), "\\u%04x", static_cast<unsigned>(c));
-      quoted += code;
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
-}
-
-/// An object whose members keep the order in which they are added.
-class JsonObject {
- public:
-  JsonObject() {
-    members_.imbue(std::locale::classic());
-    members_.precision(12);
-  }
-
-  JsonObject& add(const std::string& key, const std::string& text) { return addRaw(key, jsonText(text)); }
-  JsonObject& add(const std::string& key, const JsonObject& object) { return addRaw(key, object.text()); }
-  /// null if empty; JSON knows neither NaN nor infinity: they are null, too.
-  JsonObject& add(const std::string& key, const std::optional<double>& number) {
-    addKey(key);
-    if (number && std::isfinite(*number)) {
-      members_ << *number;
-    } else {
-      members_ << "null";
-    }
-    return *this;
-  }
-  JsonObject& addCount(const std::string& key, unsigned long long count) { return addRaw(key, std::to_string(count)); }
-
-  std::string text() const { return "{" + members_.str() + "}"; }
-
- private:
-  void addKey(const std::string& key) { members_ << (members_.tellp() > 0 ? ", " : "") << jsonText(key) << ": "; }
-  JsonObject& addRaw(const std::string& key, const std::string& value) {
-    addKey(key);
-    members_ << value;
-    return *this;
-  }
-
-  std::ostringstream members_;
-};
-
 JsonObject toObject(const Distribution& x) {
   JsonObject object;
   object.add("mean", x.mean).add("median", x.median).add("p99", x.p99).add("max", x.max);
-  return object;
-}
-
-JsonObject toObject(const MeanMax& x) {
-  JsonObject object;
-  object.add("mean", x.mean).add("max", x.max);
   return object;
 }
 

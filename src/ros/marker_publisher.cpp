@@ -15,7 +15,7 @@ namespace {
 constexpr double kRefreshPeriod = 1.0;
 // Of the scene's diagonal: wide enough to be seen when the whole scene is in view.
 constexpr double kUavShare = 0.02;
-constexpr double kTextShare = 0.022;
+constexpr double kTextShare = 0.025;
 constexpr double kLookAheadShare = 0.3;
 
 double drawnUavWidth(const Mission& mission, double wanted, double diagonal) {
@@ -30,7 +30,7 @@ MarkerPublisher::MarkerPublisher(const Mission& mission, const std::string& fram
     : frame_(frame),
       trail_duration_(options.trail_duration),
       inputs_(inputs),
-      box_(sceneBox(mission.scenario)),
+      box_(boundingBox(scenePoints(mission.scenario))),
       sizes_{drawnUavWidth(mission, options.uav_marker_size, box_.diagonal().norm()),
              std::max(0.3, kTextShare * box_.diagonal().norm()),
              0.5 * Vector3(mission.parameters.limits.pair_distance, mission.parameters.limits.pair_distance,

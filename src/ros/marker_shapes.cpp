@@ -114,24 +114,34 @@ std::vector<Vector3> dashes(const ReferencePath& path, double until, double dash
   return ends;
 }
 
-Eigen::AlignedBox3d sceneBox(const Scenario& scenario) {
-  Eigen::AlignedBox3d box;
+std::vector<Vector3> scenePoints(const Scenario& scenario) {
+  std::vector<Vector3> points;
   for (const ScenarioUav& uav : scenario.uavs) {
-    box.extend(uav.start);
+    points.push_back(uav.start);
     const ReferencePath path(uav.reference);
     const double length = arcLengthAtEnd(uav, path, scenario.end);
     constexpr int kSamples = 100;
     for (int i = 0; i <= kSamples; ++i) {
       Vector3 point = path.at(length * i / kSamples).position;
       if (scenario.end.target_x) point.x() = std::min(point.x(), *scenario.end.target_x);
-      box.extend(point);
+      points.push_back(point);
     }
   }
   for (const ScenarioObstacle& obstacle : scenario.obstacles) {
     const Superellipsoid body = makeObstacle(obstacle);
-    box.extend(Vector3(body.center() - body.halfExtents()));
-    box.extend(Vector3(body.center() + body.halfExtents()));
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3 reach = body.halfExtents()[axis] * Vector3::Unit(axis);
+      points.push_back(body.center() - reach);
+      points.push_back(body.center() + reach);
+    }
   }
+  return points;
+}
+
+Eigen::AlignedBox3d boundingBox(const std::vector<Vector3>& points) {
+  if (points.empty()) return Eigen::AlignedBox3d(Vector3(Vector3::Zero()));
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
   return box;
 }
 

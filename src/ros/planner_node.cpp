@@ -61,8 +61,13 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   const double now = toSeconds(ros::Time::now());
   if (now < last_now_) resetAfterTimeJump(now);
   last_now_ = now;
+  const double epoch = epochFor(toSeconds(event.current_expected), now, cycle_period_);
+  // After a late cycle the timer catches up; what it asks for has been planned.
+  if (epoch < last_epoch_ + 0.5 * cycle_period_) return;
+  last_epoch_ = epoch;
+  outputs_.sendWaitingSetpoints();
   inputs_.store().fill(now, snapshot_);
-  const double epoch = std::max(snapshot_.now, epochFor(toSeconds(event.current_expected), now, cycle_period_));
+  snapshot_.now = std::min(snapshot_.now, epoch);
   planner_.plan(snapshot_, epoch);
   const bool deadline_missed = toSeconds(ros::Time::now()) > epoch;
   publishCycle(now, deadline_missed);
@@ -97,8 +102,10 @@ void PlannerNode::publishCycle(double now, bool deadline_missed) {
 
 void PlannerNode::resetAfterTimeJump(double now) {
   ROS_WARN("ROS time jumped back by %.2f s: plans and inputs are forgotten, the run starts anew", last_now_ - now);
+  last_epoch_ = 0.0;
   planner_.reset();
   inputs_.store().clear();
+  outputs_.clear();
   diagnostics_.restart();
   markers_.clear();
 }

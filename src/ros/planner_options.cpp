@@ -20,6 +20,13 @@ TwistFrame twistFrame(const std::string& name, Faults& faults) {
   return TwistFrame::kBody;
 }
 
+SetpointDelivery setpointDelivery(const std::string& name, Faults& faults) {
+  if (name == "at_epoch") return SetpointDelivery::kAtEpoch;
+  if (name != "at_once")
+    faults.add("parameters", "setpoint_delivery", "is '" + name + "', expected at_once or at_epoch");
+  return SetpointDelivery::kAtOnce;
+}
+
 }  // namespace
 
 const std::vector<NodeParameter>& plannerNodeTable() {
@@ -32,6 +39,7 @@ const std::vector<NodeParameter>& plannerNodeTable() {
       {"odometry_twist_frame", "axes of odometry twists: body or world", std::string("body")},
       {"setpoint_dt", "time between setpoints [s]", 0.05, false, 0.001, 1.0},
       {"setpoint_horizon", "time that setpoints cover [s], .inf: the whole plan", kInfinity, false, 0.001},
+      {"setpoint_delivery", "when setpoints are sent: at_once or at_epoch", std::string("at_once")},
       {"marker_rate", "markers for rviz [Hz], 0: none", 10.0, false, 0.0, 100.0},
       {"uav_marker_size", "drawn width of a UAV [m], 0: by the scene's size", 0.0, false, 0.0, 1000.0},
       {"trail_duration", "flown path to draw [s]", 60.0, false, 0.0, 3600.0},
@@ -52,6 +60,7 @@ PlannerNodeOptions takePlannerNodeOptions(ParameterMap& given, Faults& faults) {
   options.odometry_twist_frame = twistFrame(text("odometry_twist_frame"), faults);
   options.setpoint_dt = number("setpoint_dt");
   options.setpoint_horizon = number("setpoint_horizon");
+  options.setpoint_delivery = setpointDelivery(text("setpoint_delivery"), faults);
   options.marker_rate = number("marker_rate");
   options.uav_marker_size = number("uav_marker_size");
   options.trail_duration = number("trail_duration");

@@ -9,7 +9,12 @@ namespace swarm_planner {
 
 PlannerOutputs::PlannerOutputs(const std::vector<std::string>& uav_names, const std::string& planning_frame,
                                const PlannerNodeOptions& options)
-    : frame_(planning_frame), setpoint_dt_(options.setpoint_dt), setpoint_horizon_(options.setpoint_horizon) {
+    : frame_(planning_frame),
+      setpoint_dt_(options.setpoint_dt),
+      setpoint_horizon_(options.setpoint_horizon),
+      delivery_(options.setpoint_delivery),
+      trajectories_(uav_names.size()),
+      waiting_(uav_names.size(), false) {
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
   for (const std::string& name : uav_names) {
@@ -24,18 +29,28 @@ void PlannerOutputs::publishPlans(const SwarmPlanner& planner, const std::vector
   const CycleReport& report = planner.report();
   swarm_plan_.plans.clear();
   for (std::size_t uav = 0; uav < report.uavs.size(); ++uav) {
-    if (!report.uavs[uav].planned) continue;
+    waiting_[uav] = report.uavs[uav].planned;
+    if (!waiting_[uav]) continue;
     const Trajectory& plan = planner.committed(uav);
     samplePlan(plan, setpoint_dt_, setpoint_horizon_, inputs[uav].start_yaw, samples_);
-    toMessage(samples_, frame_, trajectory_);
-    setpoints_[uav].publish(trajectory_);
+    toMessage(samples_, frame_, trajectories_[uav]);
     swarm_plan_.plans.emplace_back();
     toMessage(plan, planner.uavName(uav), swarm_plan_.plans.back());
   }
+  if (delivery_ == SetpointDelivery::kAtOnce) sendWaitingSetpoints();
   swarm_plan_.header.stamp = toRosTime(now);
   swarm_plan_.header.frame_id = frame_;
   swarm_plan_.cycle = report.cycle;
   plans_.publish(swarm_plan_);
 }
+
+void PlannerOutputs::sendWaitingSetpoints() {
+  for (std::size_t uav = 0; uav < setpoints_.size(); ++uav) {
+    if (waiting_[uav]) setpoints_[uav].publish(trajectories_[uav]);
+    waiting_[uav] = false;
+  }
+}
+
+void PlannerOutputs::clear() { waiting_.assign(waiting_.size(), false); }
 
 }  // namespace swarm_planner

@@ -184,7 +184,7 @@ void QuadSimNode::observe() {
   const double run_time = time_ - *time_zero_;
   monitor_->observe(run_time, samples_, obstacles_now_);
   if (monitor_->ended()) {
-    endRun("scenario");
+    endRun(monitor_->summary().timed_out ? "timeout" : "scenario");
   } else if (options_.duration > 0.0 && run_time >= options_.duration) {
     endRun("duration");
   }

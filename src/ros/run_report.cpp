@@ -1,35 +1,14 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/run_report.hpp"
 
-#include <cmath>
 #include <iomanip>
 #include <optional>
 #include <sstream>
 
+#include "swarm_planner/experiments/json_object.hpp"
+
 namespace swarm_planner {
 namespace {
-
-std::string jsonNumber(std::optional<double> value) {
-  if (!value || !std::isfinite(*value)) return "null";
-  std::ostringstream text;
-  text << std::setprecision(9) << *value;
-  return text.str();
-}
-
-std::string jsonString(const std::string& value) {
-  std::ostringstream text;
-  text << '"';
-  for (const char c : value) {
-    if (c == '"' || c == '\\') text << '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) text << c;
-  }
-  text << '"';
-  return text.str();
-}
-
-std::string jsonMeanMax(double mean, double max) {
-  return "{\"mean\": " + jsonNumber(mean) + ", \"max\": " + jsonNumber(max) + "}";
-}
 
 std::string metres(std::optional<double> value) {
   if (!value) return "none to measure";
@@ -63,22 +42,27 @@ std::string toText(const RunReport& report) {
 }
 
 std::string toJson(const RunReport& report) {
-  const RunSummary& summary = report.summary;
-  std::ostringstream json;
-  json << "{\"clear\": " << (report.clear() ? "true" : "false") << ", \"scenario\": " << jsonString(report.scenario)
-       << ", \"ended_by\": " << jsonString(report.ended_by) << ", \"uavs\": " << report.uavs
-       << ", \"collisions\": " << summary.collisions.size()
-       << ", \"min_uav_distance_m\": " << jsonNumber(summary.min_uav_distance)
-       << ", \"min_obstacle_clearance_m\": " << jsonNumber(summary.min_obstacle_clearance)
-       << ", \"final_lag_m\": " << jsonMeanMax(summary.final_lag.mean, summary.final_lag.max)
-       << ", \"stuck_uavs\": " << summary.stuck_uavs << ", \"arrived_uavs\": " << summary.arrived_uavs
-       << ", \"mission_time_s\": " << jsonNumber(summary.mission_time)
-       << ", \"path_length_m\": " << jsonNumber(summary.path_length)
-       << ", \"tracking_error_m\": " << jsonMeanMax(summary.tracking_error.mean, summary.tracking_error.max)
-       << ", \"workspace_violations\": " << summary.workspace_violations << ", \"cycles\": " << report.cycles
-       << ", \"cycle_ms\": " << jsonMeanMax(1e3 * report.cycle_time_mean, 1e3 * report.cycle_time_max)
-       << ", \"deadline_misses\": " << report.deadline_misses << ", \"cost\": " << jsonNumber(summary.cost) << "}";
-  return json.str();
+  const RunSummary& flown = report.summary;
+  JsonObject object;
+  object.addFlag("clear", report.clear())
+      .add("scenario", report.scenario)
+      .add("ended_by", report.ended_by)
+      .addCount("uavs", report.uavs)
+      .addCount("cycles", report.cycles)
+      .add("cycle_ms", toObject(MeanMax{1e3 * report.cycle_time_mean, 1e3 * report.cycle_time_max}))
+      .addCount("deadline_misses", report.deadline_misses)
+      .addCount("collisions", flown.collisions.size())
+      .add("min_uav_distance_m", flown.min_uav_distance)
+      .add("min_obstacle_clearance_m", flown.min_obstacle_clearance)
+      .add("final_lag_m", toObject(flown.final_lag))
+      .addCount("stuck_uavs", static_cast<unsigned>(flown.stuck_uavs))
+      .addCount("arrived_uavs", static_cast<unsigned>(flown.arrived_uavs))
+      .add("mission_time_s", flown.mission_time)
+      .add("path_length_m", flown.path_length)
+      .add("tracking_error_m", toObject(flown.tracking_error))
+      .addCount("workspace_violations", static_cast<unsigned>(flown.workspace_violations))
+      .add("cost", flown.cost);
+  return object.text();
 }
 
 }  // namespace swarm_planner

@@ -33,9 +33,9 @@ std::string writeFittedConfig(const std::string& scenario_path, const std::strin
   const int file = mkstemps(path.data(), 5);
   if (file < 0) throw std::runtime_error("cannot write to /tmp");
   close(file);
-  Eigen::AlignedBox3d box = sceneBox(scenario);
-  box.extend(statusPosition(box));
-  std::ofstream(path) << fitView(config.str(), box, scenario.frame_id);
+  std::vector<Vector3> points = scenePoints(scenario);
+  points.push_back(statusPosition(boundingBox(points)));
+  std::ofstream(path) << fitView(config.str(), points, scenario.frame_id);
   return path;
 }
 

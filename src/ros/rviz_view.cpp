@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
-#include "swarm_planner/config/types.hpp"
+#include "swarm_planner/ros/marker_shapes.hpp"
 
 namespace swarm_planner {
 namespace {
 
-// rviz's field of view is vertical; its window is wider than high. The box shall leave a border free.
+// rviz's field of view is vertical; its window is wider than high. The scene shall leave a border free.
 constexpr double kTangent = 0.4142;  // of half the 45 degrees that rviz sees
 constexpr double kAspect = 1.4;
 constexpr double kFilled = 0.92;
@@ -21,6 +22,7 @@ constexpr double kLeastView = 5.0;
 // Cells along the diagonal, and the grid's width over the diagonal.
 constexpr double kCells = 20.0;
 constexpr double kGridShare = 2.0;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The largest of 1, 2, 5 times a power of ten that is not above `value`.
 double roundedDown(double value) {
@@ -37,20 +39,38 @@ void setPoint(const Vector3& point, YAML::Node node) {
   node["Z"] = point.z();
 }
 
-// Distance from the box's centre at which a camera that looks from (yaw, pitch) sees every corner [m]. A corner at
-// (right, up, ahead) of the centre is seen if |up| <= (d + ahead) tan(fov / 2), and likewise to the right.
-double fittingDistance(const Eigen::AlignedBox3d& box, double yaw, double pitch) {
-  const Vector3 ahead(-std::cos(yaw) * std::cos(pitch), -std::sin(yaw) * std::cos(pitch), -std::sin(pitch));
-  const Vector3 right = ahead.cross(Vector3::UnitZ()).normalized();
-  const Vector3 up = right.cross(ahead);
-  double distance = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vector3 offset = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)) - box.center();
-    const double least =
-        std::max(std::abs(up.dot(offset)), std::abs(right.dot(offset)) / kAspect) / (kFilled * kTangent);
-    distance = std::max(distance, least - ahead.dot(offset));
+// The axes of a picture taken from the direction (yaw, pitch).
+struct CameraAxes {
+  CameraAxes(double yaw, double pitch)
+      : ahead(-std::cos(yaw) * std::cos(pitch), -std::sin(yaw) * std::cos(pitch), -std::sin(pitch)),
+        right(ahead.cross(Vector3::UnitZ()).normalized()),
+        up(right.cross(ahead)) {}
+  Vector3 ahead, right, up;
+};
+
+// Where across the picture, and at most how far ahead, a camera must be for every point p to be seen:
+// |across . (p - c)| <= tangent ahead . (p - c), two half-planes for c, met in their corner.
+struct Corner {
+  Corner(const std::vector<Vector3>& points, const Vector3& across, const Vector3& ahead, double tangent) {
+    double left = -kInfinity, right = -kInfinity;
+    for (const Vector3& point : points) {
+      right = std::max(right, across.dot(point) - tangent * ahead.dot(point));
+      left = std::max(left, -across.dot(point) - tangent * ahead.dot(point));
+    }
+    offset = 0.5 * (right - left);
+    depth = -0.5 * (right + left) / tangent;
   }
-  return distance;
+  double offset, depth;
+};
+
+// Moves the camera, its direction kept, to the nearest place that sees every point; its focus is as deep as `middle`.
+void fitCamera(const std::vector<Vector3>& points, const Vector3& middle, YAML::Node view) {
+  const CameraAxes axes(view["Yaw"].as<double>(), view["Pitch"].as<double>());
+  const Corner across(points, axes.right, axes.ahead, kFilled * kAspect * kTangent);
+  const Corner upward(points, axes.up, axes.ahead, kFilled * kTangent);
+  const double depth = axes.ahead.dot(middle);
+  setPoint(across.offset * axes.right + upward.offset * axes.up + depth * axes.ahead, view["Focal Point"]);
+  view["Distance"] = std::max(kLeastView, depth - std::min(across.depth, upward.depth));
 }
 
 void fitGrid(const Eigen::AlignedBox3d& box, double diagonal, YAML::Node grid) {
@@ -63,16 +83,16 @@ void fitGrid(const Eigen::AlignedBox3d& box, double diagonal, YAML::Node grid) {
 
 }  // namespace
 
-std::string fitView(const std::string& rviz_config, const Eigen::AlignedBox3d& box, const std::string& frame) {
+std::string fitView(const std::string& rviz_config, const std::vector<Vector3>& points, const std::string& frame) {
+  const Eigen::AlignedBox3d box = boundingBox(points);
   YAML::Node config = YAML::Load(rviz_config);
   YAML::Node manager = config["Visualization Manager"];
   YAML::Node view = manager ? manager["Views"]["Current"] : YAML::Node();
-  if (!view || !view["Focal Point"] || !view["Yaw"] || !view["Pitch"])
+  if (!view || !view["Focal Point"] || !view["Yaw"] || !view["Pitch"]) {
     throw std::invalid_argument("the rviz configuration has no orbit camera");
+  }
   const double diagonal = std::max(kLeastView, box.diagonal().norm());
-  const double distance = fittingDistance(box, view["Yaw"].as<double>(), view["Pitch"].as<double>());
-  view["Distance"] = std::max(kLeastView, distance);
-  setPoint(box.center(), view["Focal Point"]);
+  fitCamera(points, box.center(), view);
   manager["Global Options"]["Fixed Frame"] = frame;
   for (YAML::Node display : manager["Displays"]) {
     if (display["Class"].as<std::string>("") == "rviz/Grid") fitGrid(box, diagonal, display);

@@ -133,7 +133,7 @@ void SceneMarkers::addObstacle(const TrackedObstacle& obstacle, double now) {
   surface.pose.position = toPoint(body.center());
   surface.pose.orientation = toQuaternionMessage(yawRotation(body.yaw()));
   setScale(Vector3::Ones(), surface);
-  surface.color = moves ? color(1.0F, 0.6F, 0.25F, 0.8F) : color(0.75F, 0.79F, 0.85F, 0.8F);
+  surface.color = moves ? color(1.0F, 0.6F, 0.25F, 0.65F) : color(0.75F, 0.79F, 0.85F, 0.65F);
 
   if (!moves) {
     add("velocity", body.id(), Marker::ARROW).action = Marker::DELETE;

@@ -100,9 +100,9 @@ void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajec
   if (passage.deepest > 0) {
     const auto i = static_cast<std::size_t>(passage.deepest);
     const double time = passage.deepest * iterate.dt;
-    side =
-        PassingSide::choose(body, passage.relative[i], midpoint(passage.relative[i]) + body.point(passage.deepest, 0),
-                            kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+    const Vector3 position = midpoint(segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt));
+    side = PassingSide::choose(body, passage.relative[i], position, kReachableSpeed * problem.bounds.max_speed * time,
+                               problem.bounds.workspace);
   }
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);

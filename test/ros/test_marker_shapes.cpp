@@ -58,8 +58,8 @@ TEST(Dashes, CoverHalfOfThePathUpToTheLimit) {
   EXPECT_TRUE(dashes(ReferencePath({Vector3(1, 2, 3)}), 50.0, 1.0).empty());
 }
 
-TEST(SceneBox, HoldsStartsObstaclesAndTheRunButNotWhatLiesBeyond) {
-  const Eigen::AlignedBox3d box = sceneBox(paperSix());
+TEST(ScenePoints, HoldsStartsObstaclesAndTheRunButNotWhatLiesBeyond) {
+  const Eigen::AlignedBox3d box = boundingBox(scenePoints(paperSix()));
   EXPECT_LE(box.min().x(), 0.0);
   EXPECT_GE(box.max().x(), 300.0);
   EXPECT_LT(box.max().x(), 400.0);
@@ -67,14 +67,14 @@ TEST(SceneBox, HoldsStartsObstaclesAndTheRunButNotWhatLiesBeyond) {
   EXPECT_GE(box.max().y(), 300.0);
 }
 
-TEST(SceneBox, EndsWhereTheTargetsGetToInTheGivenTime) {
+TEST(ScenePoints, EndsWhereTheTargetsGetToInTheGivenTime) {
   Scenario scenario;
   scenario.end.duration = 10.0;
   scenario.uavs.resize(1);
   scenario.uavs[0].reference = {Vector3(0, 0, 0), Vector3(1000, 0, 0)};
   scenario.uavs[0].target.start = 5.0;
   scenario.uavs[0].target.speed = 2.0;
-  EXPECT_NEAR(sceneBox(scenario).max().x(), 25.0, 1e-9);
+  EXPECT_NEAR(boundingBox(scenePoints(scenario)).max().x(), 25.0, 1e-9);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "swarm_planner/ros/node_parameters.hpp"
 #include "swarm_planner/ros/planner_options.hpp"
@@ -58,6 +60,7 @@ TEST(NodeParameters, NamesEveryFaultAndWhatWasExpected) {
       {"odometry_topic", std::string("odometry"), "{uav}"},
       {"trajectory_topic", std::string("command"), "{uav}"},
       {"odometry_twist_frame", std::string("boddy"), "body or world"},
+      {"setpoint_delivery", std::string("soon"), "at_once or at_epoch"},
       {"setpoint_dt", 0.0, "[0.001, 1]"},
       {"setpoint_dt", std::nan(""), "[0.001, 1]"},
       {"setpoint_horizon", -1.0, "expected within"},
@@ -131,6 +134,17 @@ TEST(NodeParameters, ShippedFileTellsEveryDefault) {
     }
   }
   EXPECT_TRUE(keys.empty()) << *keys.begin() << " in config/node.yaml is no parameter of the node";
+}
+
+TEST(NodeParameters, ManualNamesEveryOne) {
+  std::ifstream file("doc/ros.md");
+  std::ostringstream manual;
+  manual << file.rdbuf();
+  for (const auto* table : {&plannerNodeTable(), &quadSimTable()}) {
+    for (const NodeParameter& parameter : *table) {
+      EXPECT_TRUE(contains(manual.str(), "`" + parameter.name + "`")) << parameter.name << " is not in doc/ros.md";
+    }
+  }
 }
 
 }  // namespace

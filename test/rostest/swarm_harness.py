@@ -43,16 +43,18 @@ def wait_for_summary(path, timeout=PATIENCE):
 
 
 class Recorder:
-    """Keeps every message of a topic."""
+    """Keeps every message of a topic, and in `arrivals` the ROS time at which each came."""
 
     def __init__(self, topic, message_type):
         self._lock = threading.Lock()
         self._messages = []
+        self.arrivals = []
         self._subscriber = rospy.Subscriber(topic, message_type, self._receive, tcp_nodelay=True)
 
     def _receive(self, message):
         with self._lock:
             self._messages.append(message)
+            self.arrivals.append(rospy.Time.now())
 
     def all(self):
         with self._lock:
@@ -65,6 +67,7 @@ class Recorder:
     def clear(self):
         with self._lock:
             self._messages = []
+            self.arrivals = []
 
     def last(self):
         with self._lock:

@@ -69,6 +69,18 @@ int bodyRows(const Qp& qp) {
   return rowsOf(qp, Output::kPosition) + rowsOf(qp, Output::kControlPoint1) + rowsOf(qp, Output::kControlPoint2);
 }
 
+/// Rows on positions that ask for a move along y.
+int sidewaysRows(const Qp& qp) {
+  int count = 0;
+  for (const QpStage& stage : qp.stages) {
+    for (int i = 0; i < stage.row_count; ++i) {
+      const QpRow& row = stage.rows[static_cast<std::size_t>(i)];
+      count += row.output == Output::kPosition && std::abs(row.n.y()) > 0.7 ? 1 : 0;
+    }
+  }
+  return count;
+}
+
 Jerks randomJerks(Random& random, double size) {
   Jerks jerks;
   for (Vector3& jerk : jerks) jerk = random.vector(-size, size);
@@ -189,7 +201,7 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
     const double dt = flight.problem.dt;
     const Vector3 radii(random.logUniform(0.5, 3.0), random.logUniform(0.5, 3.0), random.logUniform(0.5, 3.0));
     const Superellipsoid obstacle(1, Vector3(random.uniform(6, 15), random.uniform(-2, 2), 10), radii,
-                                  random.vector(2.0, 10.0), random.uniform(-3.0, 3.0), random.vector(-0.5, 0.5));
+                                  random.vector(2.0, 10.0), random.uniform(-3.0, 3.0), random.vector(-4.0, 4.0));
     const Trajectory other = wanderingPlan(
         random, {Vector3(random.uniform(8, 20), random.uniform(-6, 6), 10), random.vector(-2.0, 2.0), Vector3::Zero()},
         1.0, 0.0, dt);
@@ -300,15 +312,19 @@ TEST_F(LinearisationTest, GoesRoundABoxMetHeadOn) {
   FlightProblem flight(kLine, 4.0, start);
   flight.addObstacle(
       Superellipsoid(1, Vector3(14, 0, 10), Vector3(1, 3, 9), Vector3::Constant(10.0), 0.0, Vector3::Zero()));
-  const Qp& qp = linearised(flight.problem, flight.coasting());
-  int sideways = 0;
-  for (const QpStage& stage : qp.stages) {
-    for (int i = 0; i < stage.row_count; ++i) {
-      const QpRow& row = stage.rows[static_cast<std::size_t>(i)];
-      if (row.output == Output::kPosition && std::abs(row.n.y()) > 0.7) ++sideways;
-    }
-  }
-  EXPECT_GT(sideways, 0) << "no row asks for a way round";
+  EXPECT_GT(sidewaysRows(linearised(flight.problem, flight.coasting())), 0) << "no row asks for a way round";
+}
+
+// The UAV itself has room on either side, half a stage's way of the box from where the box is at the stage's beginning.
+TEST_F(LinearisationTest, GoesOutOfTheWayOfABoxBesideTheWorkspacesEdge) {
+  const KinematicState start{Vector3(0, 0, 10), Vector3::Zero(), Vector3::Zero()};
+  FlightProblem flight(kLine, 0.0, start);
+  const double edge = 0.3 + flight.parameters.limits.tracking_margin;
+  const Workspace workspace{Vector3(-50, -50, 0), Vector3(edge, 50, 50)};
+  flight.setWorkspace(&workspace);
+  flight.addObstacle(
+      Superellipsoid(1, Vector3(15, 0, 10), Vector3(1, 3, 9), Vector3::Constant(10.0), 0.0, Vector3(-6, 0, 0)));
+  EXPECT_GT(sidewaysRows(linearised(flight.problem, flight.coasting())), 0);
 }
 
 TEST_F(LinearisationTest, CutsOffAnAnswerBeyondTheNormLimits) {

@@ -19,16 +19,6 @@ namespace {
 
 const std::vector<Vector3> kLine{Vector3(0, 0, 10), Vector3(100, 0, 10)};
 
-/// Whether two plans are the same, bit by bit.
-bool identical(const Trajectory& a, const Trajectory& b) {
-  bool same = a.epoch == b.epoch && a.dt == b.dt;
-  for (std::size_t k = 0; k < kHorizon; ++k) same = same && a.jerks[k] == b.jerks[k];
-  for (std::size_t k = 0; k <= kHorizon; ++k) {
-    same = same && a.knots[k].p == b.knots[k].p && a.knots[k].v == b.knots[k].v && a.knots[k].a == b.knots[k].a;
-  }
-  return same;
-}
-
 double largestDistance(const Trajectory& a, const Trajectory& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k <= kHorizon; ++k) largest = std::max(largest, (a.knots[k].p - b.knots[k].p).norm());

@@ -43,6 +43,16 @@ inline Trajectory wanderingPlan(Random& random, const KinematicState& start, dou
   return makePlan(start, jerks, epoch, dt);
 }
 
+/// Whether two plans are the same, bit by bit.
+inline bool identical(const Trajectory& a, const Trajectory& b) {
+  bool same = a.epoch == b.epoch && a.dt == b.dt;
+  for (std::size_t k = 0; k < kHorizon; ++k) same = same && a.jerks[k] == b.jerks[k];
+  for (std::size_t k = 0; k <= kHorizon; ++k) {
+    same = same && a.knots[k].p == b.knots[k].p && a.knots[k].v == b.knots[k].v && a.knots[k].a == b.knots[k].a;
+  }
+  return same;
+}
+
 /// The problem of one UAV together with all that it points to.
 class FlightProblem {
  public:

@@ -22,6 +22,21 @@ Mission makeTestMission(const std::vector<Vector3>& starts, const std::vector<Ve
   return mission;
 }
 
+Mission twoAbreast() {
+  return makeTestMission({Vector3(0, 0, 10), Vector3(0, 10, 10)}, {Vector3(90, 0, 10), Vector3(90, 10, 10)}, 3.0);
+}
+
+Mission crossingPair() {
+  return makeTestMission({Vector3(-20, 0, 10), Vector3(0, -20, 10)}, {Vector3(20, 0, 10), Vector3(0, 20, 10)}, 3.0);
+}
+
+Snapshot snapshotOf(const Mission& mission, double now) {
+  Snapshot snapshot;
+  snapshot.now = now;
+  for (const ScenarioUav& uav : mission.scenario.uavs) snapshot.uavs.push_back({true, now, uav.start, Vector3::Zero()});
+  return snapshot;
+}
+
 PerfectFlight::PerfectFlight(const Mission& mission, double start_time)
     : mission_(mission),
       planner_(mission),

@@ -14,6 +14,15 @@ namespace swarm_planner {
 /// UAVs where no scenario may.
 Mission makeTestMission(const std::vector<Vector3>& starts, const std::vector<Vector3>& ends, double speed);
 
+/// Two UAVs on parallel lines along x, 10 m apart.
+Mission twoAbreast();
+
+/// Two UAVs that would meet at (0, 0, 10) at a right angle.
+Mission crossingPair();
+
+/// Every UAV at rest at its start.
+Snapshot snapshotOf(const Mission& mission, double now);
+
 /// Flies a mission in closed loop by vehicles that follow their plans perfectly, as a lossless link would have it. A
 /// vehicle that gets no new plan flies the last one to its end and rests there.
 class PerfectFlight {

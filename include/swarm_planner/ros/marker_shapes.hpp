@@ -23,8 +23,12 @@ TriangleMesh quadrotorMesh(double width);
 /// A polyline as dashes of length `dash` with equal gaps up to `until` [m] of arc length: pairs of points.
 std::vector<Vector3> dashes(const ReferencePath& path, double until, double dash);
 
-/// The box that holds what a run shows [m]: starts, obstacles at t = 0, and references as far as the run goes.
-Eigen::AlignedBox3d sceneBox(const Scenario& scenario);
+/// Points that a view of a run must hold [m]: starts, extremes of the obstacles at t = 0, and references as far as the
+/// run goes.
+std::vector<Vector3> scenePoints(const Scenario& scenario);
+
+/// The axis-aligned box about points; that of no points is a point at the origin.
+Eigen::AlignedBox3d boundingBox(const std::vector<Vector3>& points);
 
 /// Where the status line floats: above the middle of the scene, clear of it.
 Vector3 statusPosition(const Eigen::AlignedBox3d& scene);

@@ -49,7 +49,8 @@ class PlannerNode {
 
   Snapshot snapshot_;
   PlannerStatus status_;
-  double last_now_ = 0.0;  ///< ROS time of the last cycle [s]
+  double last_now_ = 0.0;    ///< ROS time of the last cycle [s]
+  double last_epoch_ = 0.0;  ///< of the last cycle's plans [s]
   std::uint32_t deadline_misses_ = 0;
 
   ros::Timer cycle_timer_;

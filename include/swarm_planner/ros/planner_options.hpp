@@ -9,6 +9,12 @@
 
 namespace swarm_planner {
 
+/// When setpoints are sent. Their stamp is their epoch either way.
+enum class SetpointDelivery {
+  kAtOnce,   ///< up to a cycle period before the epoch, for drivers that honour the stamp
+  kAtEpoch,  ///< when they take effect, for drivers that fly whatever comes at once
+};
+
 /// Parameters that planner_node has beside those of the planner: topics, frames, messages, markers.
 /// config/node.yaml describes each.
 struct PlannerNodeOptions {
@@ -17,8 +23,9 @@ struct PlannerNodeOptions {
   std::string trajectory_topic;  ///< with {uav}
   std::string planning_frame;    ///< empty: the scenario's frame_id
   TwistFrame odometry_twist_frame = TwistFrame::kBody;
-  double setpoint_dt = 0.05;       ///< [s]
-  double setpoint_horizon = 0.0;   ///< [s], infinity: the whole plan
+  double setpoint_dt = 0.05;      ///< [s]
+  double setpoint_horizon = 0.0;  ///< [s], infinity: the whole plan
+  SetpointDelivery setpoint_delivery = SetpointDelivery::kAtOnce;
   double marker_rate = 10.0;       ///< [Hz], 0: no markers
   double uav_marker_size = 0.0;    ///< [m], 0: by the scene's size
   double trail_duration = 60.0;    ///< [s]

@@ -23,19 +23,28 @@ class PlannerOutputs {
   PlannerOutputs(const std::vector<std::string>& uav_names, const std::string& planning_frame,
                  const PlannerNodeOptions& options);
 
-  /// Setpoints first: vehicles wait for them. A UAV without a plan gets none. `inputs`: yaw is held as at the start.
+  /// Sends the setpoints that wait for their epoch, if any. The epoch of a cycle's plans is the start of the next
+  /// cycle, so call it there.
+  void sendWaitingSetpoints();
+  /// Setpoints first: vehicles wait for them; with SetpointDelivery::kAtEpoch they are kept until the next cycle. A UAV
+  /// without a plan gets none. `inputs`: yaw is held as at the start.
   void publishPlans(const SwarmPlanner& planner, const std::vector<UavInput>& inputs, double now);
+  /// Time has jumped back: what waits is of another time.
+  void clear();
   void publishStatus(const PlannerStatus& status) { status_.publish(status); }
 
  private:
   const std::string frame_;
   const double setpoint_dt_;
   const double setpoint_horizon_;
+  const SetpointDelivery delivery_;
   std::vector<ros::Publisher> setpoints_;
   ros::Publisher plans_;
   ros::Publisher status_;
-  SetpointTrajectory samples_;  // the messages' memory is reused from cycle to cycle
-  trajectory_msgs::MultiDOFJointTrajectory trajectory_;
+  // The messages' memory is reused from cycle to cycle.
+  SetpointTrajectory samples_;
+  std::vector<trajectory_msgs::MultiDOFJointTrajectory> trajectories_;  ///< per UAV
+  std::vector<bool> waiting_;                                           ///< which of them are yet to be sent
   SwarmPlan swarm_plan_;
 };
 

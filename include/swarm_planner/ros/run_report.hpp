@@ -12,7 +12,7 @@ namespace swarm_planner {
 struct RunReport {
   std::string scenario;
   std::size_t uavs = 0;
-  std::string ended_by;  ///< "scenario", "duration" or "interrupt"
+  std::string ended_by;  ///< "scenario", "timeout" (of all_at_goal), "duration" or "interrupt"
   RunSummary summary;
   std::uint64_t cycles = 0;
   double cycle_time_mean = 0.0;  ///< [s]
