@@ -125,7 +125,7 @@ class RowMaker {
  public:
   RowMaker(const Description& d, const Prediction& prediction, const VectorXd& u, const KnownProblemOptions& options,
            Random& random)
-      : d_(d), prediction_(prediction), u_(u), options_(options), random_(random), force_(VectorXd::Zero(u.size())) {
+      : d_(d), prediction_(prediction), u_(u), options_(options), random_(random), force_(VectorXd::Zero(u.size())), hard_(u.size(), 0) {
     for (const Output& output : d.outputs) components_ = std::max(components_, output.size());
     used_.assign(d.outputs.size(), std::vector<int>(static_cast<std::size_t>(d.horizon + 1), 0));
   }
@@ -142,9 +142,8 @@ class RowMaker {
     const double value = f.gain.dot(u_) + f.constant;
     row.normal = list(normal);
     row.offset = value - options_.row_scale * random_.uniform(0.1, 3.0);
-    if (active) activate(row, f, value);
-    if (!put(row) || !active) return;
-    if (!options_.duplicates) return;
+    const bool is_active = active && activate(row, f, value);
+    if (!put(row) || !is_active || !options_.duplicates) return;
     put(row);
     row.offset = -row.offset - options_.row_scale;
     for (double& n : row.normal) n = -n;
@@ -166,10 +165,11 @@ class RowMaker {
 
   /// Hard: any multiplier. Soft: within the linear part, or beyond with the slack that belongs to it. Two equal rows
   /// share a multiplier in the linear part, and have the same one each beyond.
-  void activate(ProblemData::Row& row, const Functional& f, double value) {
+  bool activate(ProblemData::Row& row, const Functional& f, double value) {
     const Output& output = d_.outputs[static_cast<std::size_t>(row.output)];
     const int copies = options_.duplicates ? 2 : 1;
-    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows) return;
+    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows) return false;
+    if (row.penalty == 0 && options_.independent && !isIndependent(f.gain)) return false;
     double multiplier = random_.uniform(0.1, 5.0) / options_.row_scale;
     row.offset = value;
     if (row.penalty > 0) {
@@ -182,6 +182,17 @@ class RowMaker {
       }
     }
     force_ += multiplier * f.gain;
+    return true;
+  }
+
+  /// Adds the direction to those of the hard active rows if it does not depend on them.
+  bool isIndependent(const VectorXd& gain) {
+    VectorXd rest = gain.normalized();
+    for (int sweep = 0; sweep < 2; ++sweep) rest -= hard_ * (hard_.transpose() * rest);
+    if (rest.norm() < 0.05) return false;
+    hard_.conservativeResize(gain.size(), hard_.cols() + 1);
+    hard_.rightCols(1) = rest.normalized();
+    return true;
   }
 
   const Description& d_;
@@ -190,6 +201,7 @@ class RowMaker {
   const KnownProblemOptions& options_;
   Random& random_;
   VectorXd force_;
+  MatrixXd hard_;  ///< orthonormal basis of the hard active rows' gradients
   std::vector<ProblemData::Row> rows_;
   std::vector<std::vector<int>> used_;
   int components_ = 0;
@@ -197,7 +209,7 @@ class RowMaker {
 
 }  // namespace
 
-std::string randomDescription(Random& random, int number) {
+std::string randomDescription(Random& random, int number, double row_scale) {
   const int kind = random.integer(0, 2);  // dense, sparse, Kronecker
   const int copies = kind == 2 ? random.integer(2, 4) : 1;
   const int states = random.integer(1, kind == 2 ? 3 : 5), inputs = random.integer(1, kind == 2 ? 1 : 3);
@@ -213,7 +225,9 @@ std::string randomDescription(Random& random, int number) {
       << text(spread(semidefinite(random, inputs, density) + 0.5 * MatrixXd::Identity(inputs, inputs)))
       << "\n  input_linear: true\n";
   if (random.integer(0, 1) == 1) out << "  rate: " << text(spread(semidefinite(random, inputs, 1.0))) << "\n";
-  out << "penalties:\n  light: {linear: 2, quadratic: 10}\n  heavy: {linear: 30, quadratic: 100}\noutputs:\n";
+  const double square = row_scale * row_scale;
+  out << "penalties:\n  light: {linear: " << 2.0 / row_scale << ", quadratic: " << 10.0 / square
+      << "}\n  heavy: {linear: " << 30.0 / row_scale << ", quadratic: " << 100.0 / square << "}\noutputs:\n";
   const int outputs = random.integer(1, 3);
   for (int o = 0; o < outputs; ++o) {
     const int rows = random.integer(1, 2);

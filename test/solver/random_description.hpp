@@ -10,7 +10,8 @@ namespace codegen {
 
 /// The YAML text of a random QP structure: sizes, sparsity (coupled, decoupled or Kronecker), costs, outputs, row
 /// kinds and penalties vary; the input's linear term is always run-time data, so that any inputs can be optimal.
-std::string randomDescription(Random& random, int number);
+/// @param row_scale penalties are those of rows with normals of this length
+std::string randomDescription(Random& random, int number, double row_scale = 1.0);
 
 /// A problem with its optimum.
 struct KnownProblem {
@@ -23,6 +24,9 @@ struct KnownProblemOptions {
   int inactive = 20;
   double row_scale = 1.0;  ///< normals and offsets times this
   bool duplicates = false; ///< every active row comes twice, and once opposed and inactive
+  /// Hard active rows of independent gradients, so that there are points where all hold with room, without which no
+  /// interior-point method converges. false: they may pin the inputs.
+  bool independent = true;
 };
 
 /// Chooses inputs and multipliers at random, rows that they make active, soft or inactive, and then the linear terms

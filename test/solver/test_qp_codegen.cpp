@@ -39,11 +39,12 @@ std::vector<ProblemData> dataOf(const std::vector<KnownProblem>& problems) {
   return data;
 }
 
+/// @param runs 3: cold, warm and interior point; 2: the active set's alone
 void expectOptimal(const GeneratedProgram& program, const std::vector<KnownProblem>& problems, double active_set,
-                   double interior_point) {
+                   double interior_point, int runs = 3) {
   const auto answers = program.solve(dataOf(problems));
   for (std::size_t i = 0; i < problems.size(); ++i) {
-    for (int run = 0; run < 3; ++run) {
+    for (int run = 0; run < runs; ++run) {
       const SolverAnswer& answer = answers[i][static_cast<std::size_t>(run)];
       ASSERT_EQ(answer.status, kSolved) << "problem " << i << ", run " << run << ", " << program.folder();
       EXPECT_LE(largestDifference(answer.u, problems[i].u), run < 2 ? active_set : interior_point)
@@ -76,13 +77,27 @@ TEST(QpCodegen, DuplicateAndOpposedRowsDoNotMislead) {
   }
 }
 
+TEST(QpCodegen, HardRowsThatPinTheInputsAreFollowed) {
+  Random random(8);
+  KnownProblemOptions options;
+  options.active = 15;
+  options.independent = false;
+  for (int i = 0; i < 10; ++i) {
+    const std::string text = randomDescription(random, i);
+    SCOPED_TRACE(text);
+    const Description description = parseDescription(text);
+    const GeneratedProgram program(description, "-O1");
+    expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinGap, 2);
+  }
+}
+
 TEST(QpCodegen, RowsOfAnyScaleAreKept) {
   Random random(3);
   for (const double scale : {1e-6, 1e6}) {
     KnownProblemOptions options;
     options.row_scale = scale;
     for (int i = 0; i < 5; ++i) {
-      const std::string text = randomDescription(random, i);
+      const std::string text = randomDescription(random, i, scale);
       SCOPED_TRACE(text);
       const Description description = parseDescription(text);
       const GeneratedProgram program(description, "-O1");

@@ -102,15 +102,16 @@ static int qpc_enter(const qpc_tables* t, qpc_solver* s, const qpc_row* row, dou
   return QPC_CAP;
 }
 
-/* Largest residual of the working set's equations at the present outputs; `column` holds them all. */
+/* Largest residual of the working set's equations at the present outputs, less what the digits of their terms allow;
+   `column` holds them all. */
 static double qpc_residual(qpc_solver* s) {
   double largest = 0.0;
   for (int i = 0; i < s->active_count; ++i) {
     double r = s->target[i] - s->flexibility[i] * s->lambda[i];
     for (int c = 0; c < QPC_COMPONENTS; ++c) r -= s->normal[c][i] * s->output[s->point[c][i]];
     s->column[i] = r;
-    if (r > largest) largest = r;
-    if (-r > largest) largest = -r;
+    const double size = (r < 0.0 ? -r : r) - 1e-14 * (s->target[i] < 0.0 ? -s->target[i] : s->target[i]);
+    if (size > largest) largest = size;
   }
   for (int i = s->active_count; i < QPC_ROUND_UP(s->active_count, QPC_WIDTH); ++i) s->column[i] = 0.0;
   return largest;
@@ -199,6 +200,7 @@ static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) 
       if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;
       status = qpc_enter(t, s, &row, violation);
     } else {
+      /* The last correction below gains more digits than this asks for. */
       const int exact = qpc_residual(s) <= tolerance;
       qpc_correct(s);
       if (exact) break;

@@ -117,7 +117,7 @@ static int qpc_check_and_run(const qpc_tables* t, qpc_solver* s) {
   if (!qpc_group_rows(s) || !qpc_quadratics_valid(s)) return QPC_BAD_DATA;
   const int rows = qpc_look_at_rows(s);
   const double size = qpc_free_response(t, s);
-  if (rows == QPC_ROWS_BAD || !qpc_is_finite(size)) return QPC_BAD_DATA;
+  if (rows == QPC_ROWS_BAD || !qpc_all_finite(s->free_output, QPC_BLOCKS * QPC_POINTS_PADDED)) return QPC_BAD_DATA;
   s->scaled = rows == QPC_ROWS_UNUSUAL;
   if (s->scaled) qpc_scale_rows(s, 0);
   const int status = qpc_run(t, s, 1e-11 * (1.0 + size));
