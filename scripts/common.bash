@@ -113,7 +113,9 @@ build() {
     rm -rf "$build_dir"
   fi
   if [[ ! -f $build_dir/build.ninja ]]; then
-    mkdir -p "$build_dir"
+    # catkin gives tests an environment that it records while configuring, with those folders only that exist by then:
+    # without the one of the Python messages the tests with nodes could not import them.
+    mkdir -p "$build_dir/devel/lib/python3/dist-packages"
     cmake -S "$root_dir" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSWARM_PLANNER_WERROR=ON \
       >"$build_dir/configure.log" 2>&1 || {
       cat "$build_dir/configure.log" >&2
