@@ -157,7 +157,7 @@ void addSqp(TableBuilder& table) {
   using P = Parameters;
   table.section(kPlannerFile, true);
   table.wholeNumber(
-      "max_iterations", Range::closed(1.0, 50.0), [](P& p) -> int& { return p.sqp.max_iterations; },
+      "max_iterations", Range::closed(1.0, kMostSqpIterations), [](P& p) -> int& { return p.sqp.max_iterations; },
       "most quadratic programs per UAV and cycle");
   table.number(
       "step_tolerance", "m", Range::above(0.0), [](P& p) -> double& { return p.sqp.step_tolerance; },

@@ -24,11 +24,13 @@ double largestMove(const Trajectory& from, const Trajectory& to) {
 }  // namespace
 
 SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
-    : qp_solver_(std::move(qp_solver)), qp_(std::make_unique<Qp>()), solution_(std::make_unique<QpSolution>()) {}
+    : qp_solver_(std::move(qp_solver)),
+      qp_(std::make_unique<Qp>()),
+      solution_(std::make_unique<QpSolution>()),
+      answers_(static_cast<std::size_t>(kMostSqpIterations)) {}
 
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
   const SqpParameters& settings = problem.parameters->sqp;
-  answers_.resize(static_cast<std::size_t>(settings.max_iterations));
   SqpResult result;
   double current_merit = merit(problem, plan);
   candidate_ = plan;

@@ -9,6 +9,13 @@ namespace {
 
 bool isEmpty(const Box& box) { return !(box.min.array() <= box.max.array()).all(); }
 
+/// A power of two, so that a hash needs no division.
+std::size_t bucketCount(std::size_t boxes) {
+  std::size_t buckets = 16;
+  while (buckets < 2 * boxes) buckets *= 2;
+  return buckets;
+}
+
 }  // namespace
 
 std::size_t NeighbourLists::bucketOf(const Cell& cell) const {
@@ -21,6 +28,8 @@ std::size_t NeighbourLists::bucketOf(const Cell& cell) const {
 void NeighbourLists::reserve(std::size_t boxes) {
   constexpr std::size_t kMostNeighbours = 1000;
   if (boxes == 0) return;
+  cells_.reserve(boxes);
+  bucket_begin_.reserve(bucketCount(boxes) + 1);
   offsets_.reserve(boxes + 1);
   members_.reserve(boxes);
   neighbours_.reserve(boxes * std::min(boxes - 1, kMostNeighbours));
@@ -42,8 +51,7 @@ void NeighbourLists::sortIntoBuckets(const std::vector<Box>& boxes) {
   for (const Box& box : boxes) {
     if (!isEmpty(box)) size = std::max(size, (box.max - box.min).maxCoeff());
   }
-  std::size_t buckets = 16;
-  while (buckets < 2 * boxes.size()) buckets *= 2;
+  const std::size_t buckets = bucketCount(boxes.size());
   bucket_begin_.assign(buckets + 1, 0);
   cells_.resize(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {

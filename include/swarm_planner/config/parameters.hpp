@@ -59,6 +59,9 @@ struct CostParameters {
   double epsilon_s = 0.01;        ///< eps_s of (7) and (8)
 };
 
+/// Limit of SqpParameters::max_iterations; memory for so many is set aside.
+constexpr int kMostSqpIterations = 50;
+
 /// Sequential quadratic programming and penalties of violated constraints.
 struct SqpParameters {
   int max_iterations = 5;          ///< most QPs per UAV and cycle
