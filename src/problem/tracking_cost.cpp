@@ -24,7 +24,7 @@ void addRobustness(const UavProblem& problem, int stage, const Vector3& p, Stage
     const Robustness term = robustness(obstacle, point, parameters);
     cost.value += problem.dt * term.value;
     cost.position_gradient += problem.dt * term.gradient;
-    cost.position_hessian += problem.dt * term.projected;
+    cost.robustness_hessian += problem.dt * term.projected;
   }
 }
 
@@ -69,15 +69,18 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
       (weights.alpha * frame.horizontal * frame.horizontal.transpose() +
        weights.beta * frame.vertical * frame.vertical.transpose() + weights.eta * Matrix3::Identity());
   addRobustness(problem, stage, x.p, cost);
+  cost.position_hessian += cost.robustness_hessian;
   return cost;
 }
 
-double velocityWeight(const UavProblem& problem) {
-  const CostParameters& weights = problem.parameters->cost;
-  return 2.0 * problem.dt * weights.eta * weights.velocity_time * weights.velocity_time;
+double velocityWeight(const Parameters& parameters) {
+  const CostParameters& weights = parameters.cost;
+  return 2.0 * parameters.time.sampling_time * weights.eta * weights.velocity_time * weights.velocity_time;
 }
 
-double jerkWeight(const UavProblem& problem) { return 2.0 * problem.dt * problem.parameters->cost.zeta; }
+double jerkWeight(const Parameters& parameters) {
+  return 2.0 * parameters.time.sampling_time * parameters.cost.zeta;
+}
 
 double planCost(const UavProblem& problem, const Trajectory& plan) {
   StageFrames frames;
@@ -86,7 +89,7 @@ double planCost(const UavProblem& problem, const Trajectory& plan) {
   for (int k = 1; k <= kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
     sum += stageCost(problem, k, frames[i], plan.knots[i]).value;
-    sum += 0.5 * jerkWeight(problem) * plan.jerks[i - 1].squaredNorm();
+    sum += 0.5 * jerkWeight(*problem.parameters) * plan.jerks[i - 1].squaredNorm();
   }
   return sum;
 }

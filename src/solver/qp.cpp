@@ -3,29 +3,46 @@
 
 namespace swarm_planner {
 
-std::array<OutputGains, kOutputCount> makeOutputGains(double dt, const Vector3& drag_over_mass) {
-  const auto equal = [](double gain) { return Vector3(gain, gain, gain); };
+std::array<OutputGains, kOutputCount> QpModel::outputs() const {
   std::array<OutputGains, kOutputCount> gains;
-  const auto set = [&gains](Output output, double p, const Vector3& v, double a) {
+  const auto set = [&gains](Output output, double p, double v, double a) {
     gains[static_cast<std::size_t>(output)] = {p, v, a};
   };
-  set(Output::kPosition, 1.0, equal(0.0), 0.0);
-  set(Output::kControlPoint1, 1.0, equal(dt / 3.0), 0.0);
-  set(Output::kControlPoint2, 1.0, equal(2.0 * dt / 3.0), dt * dt / 6.0);
-  set(Output::kVelocity, 0.0, equal(1.0), 0.0);
-  set(Output::kVelocityControlPoint, 0.0, equal(1.0), dt / 2.0);
-  set(Output::kAcceleration, 0.0, equal(0.0), 1.0);
+  set(Output::kPosition, 1.0, 0.0, 0.0);
+  set(Output::kControlPoint1, 1.0, dt / 3.0, 0.0);
+  set(Output::kControlPoint2, 1.0, 2.0 * dt / 3.0, dt * dt / 6.0);
+  set(Output::kVelocity, 0.0, 1.0, 0.0);
+  set(Output::kVelocityControlPoint, 0.0, 1.0, dt / 2.0);
+  set(Output::kAcceleration, 0.0, 0.0, 1.0);
   set(Output::kThrustAcceleration, 0.0, drag_over_mass, 1.0);
   return gains;
 }
 
-void Qp::clearRows() {
-  for (QpStage& stage : stages) stage.row_count = 0;
+bool QpModel::operator==(const QpModel& other) const {
+  return dt == other.dt && along_weight == other.along_weight && across_weight == other.across_weight &&
+         velocity_weight == other.velocity_weight && jerk_weight == other.jerk_weight &&
+         drag_over_mass == other.drag_over_mass && slack_linear == other.slack_linear &&
+         slack_quadratic == other.slack_quadratic;
+}
+
+void Qp::setModel(const QpModel& new_model) {
+  model = new_model;
+  outputs = new_model.outputs();
+}
+
+void Qp::clear() {
+  curvature_count = 0;
+  for (QpStage& stage : stages) {
+    stage.row_count = 0;
+    stage.output_rows.fill(0);
+  }
 }
 
 bool Qp::addRow(int stage, Output output, const Vector3& n, double d) {
   QpStage& target = stages[static_cast<std::size_t>(stage)];
-  if (target.row_count == kMaxStageRows) return false;
+  int& count = target.output_rows[static_cast<std::size_t>(output)];
+  if (count == (output <= Output::kControlPoint2 ? kMaxBodyRows : kMaxLimitRows)) return false;
+  ++count;
   QpRow& row = target.rows[static_cast<std::size_t>(target.row_count++)];
   row.n = n;
   row.d = d;
@@ -33,10 +50,26 @@ bool Qp::addRow(int stage, Output output, const Vector3& n, double d) {
   return true;
 }
 
+bool Qp::addCurvature(int stage, const Vector3& n, double weight) {
+  if (curvature_count == kMaxCurvatures) return false;
+  curvatures[static_cast<std::size_t>(curvature_count++)] = {stage, n, weight};
+  return true;
+}
+
 int Qp::rowCount() const {
   int count = 0;
   for (const QpStage& stage : stages) count += stage.row_count;
   return count;
+}
+
+Matrix3 Qp::positionHessian(int stage) const {
+  const Vector3 weights(model.along_weight, model.across_weight, model.across_weight);
+  Matrix3 hessian = axes * weights.asDiagonal() * axes.transpose();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(curvature_count); ++i) {
+    const QpCurvature& term = curvatures[i];
+    if (term.stage == stage) hessian += term.weight * term.n * term.n.transpose();
+  }
+  return hessian;
 }
 
 }  // namespace swarm_planner

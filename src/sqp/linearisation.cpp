@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/sqp/linearisation.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -33,20 +35,26 @@ void addTangent(Qp& qp, int stage, Output output, const Vector3& value, const Ve
   qp.addRow(stage, output, n, -limit - n.dot(centre));
 }
 
+/// What the model's mean drag leaves out of A of (3) where the axes' drags differ [m/s^2]; taken as constant.
+Vector3 unequalDrag(const FlightBounds& bounds, const KinematicState& x, const Qp& qp) {
+  return bounds.drag_over_mass.cwiseProduct(x.v) - qp.model.drag_over_mass * x.v;
+}
+
 void addNormTangents(const FlightBounds& bounds, const KinematicState& x, int stage, double from, Qp& qp) {
   const Vector3 none = Vector3::Zero();
   addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed, from);
-  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.dt * x.a, none, bounds.max_speed, from);
+  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.model.dt * x.a, none, bounds.max_speed, from);
   addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration, from);
-  addTangent(qp, stage, Output::kThrustAcceleration, x.a + bounds.drag_over_mass.cwiseProduct(x.v), bounds.gravity,
-             bounds.max_thrust_acceleration, from);
+  addTangent(qp, stage, Output::kThrustAcceleration, x.a + qp.model.drag_over_mass * x.v,
+             bounds.gravity + unequalDrag(bounds, x, qp), bounds.max_thrust_acceleration, from);
 }
 
 void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage, Qp& qp) {
   addNormTangents(bounds, x, stage, kNormBand, qp);
   const double vertical_thrust = x.a.z() + bounds.drag_over_mass.z() * x.v.z();
   if (vertical_thrust < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
-    qp.addRow(stage, Output::kThrustAcceleration, upward(), bounds.min_vertical_thrust);
+    qp.addRow(stage, Output::kThrustAcceleration, upward(),
+              bounds.min_vertical_thrust - unequalDrag(bounds, x, qp).z());
   }
 }
 
@@ -107,34 +115,68 @@ void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajec
   }
 }
 
+bool hasOneTangent(const StageFrames& frames) {
+  constexpr double kSameDirection = 1e-9;
+  return std::all_of(frames.begin() + 1, frames.end(), [&](const StageFrame& frame) {
+    return (frame.foot.tangent - frames[1].foot.tangent).squaredNorm() < kSameDirection * kSameDirection;
+  });
+}
+
+/// Gives the QP the positive eigenvalues of a stage's robustness Hessian; one as a rule.
+void addCurvatures(const Matrix3& hessian, int stage, Qp& qp) {
+  constexpr double kNegligible = 1e-9;
+  if (hessian.isZero(0.0)) return;
+  Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
+  eigen.computeDirect(hessian);
+  for (Eigen::Index i = 2; i >= 0; --i) {
+    const double weight = eigen.eigenvalues()[i];
+    if (weight > kNegligible * eigen.eigenvalues()[2]) qp.addCurvature(stage, eigen.eigenvectors().col(i), weight);
+  }
+}
+
 void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
   StageFrames frames;
   findStageFrames(problem, iterate, frames);
+  const bool straight = hasOneTangent(frames);
+  const QpModels models = makeQpModels(*problem.parameters);
+  qp.setModel(straight ? models.straight : models.corner);
+  qp.axes.setIdentity();
+  if (straight) qp.axes << frames[1].foot.tangent, frames[1].horizontal, frames[1].vertical;
   for (int k = 1; k <= kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const KinematicState& x = iterate.knots[i];
     const StageCost cost = stageCost(problem, k, frames[i], x);
+    addCurvatures(cost.robustness_hessian, k, qp);
     QpStage& stage = qp.stages[i];
-    stage.position_hessian = cost.position_hessian;
-    stage.position_gradient = cost.position_gradient - cost.position_hessian * x.p;
-    stage.velocity_gradient = cost.velocity_gradient - velocityWeight(problem) * x.v;
+    stage.position_gradient = cost.position_gradient - qp.positionHessian(k) * x.p;
+    stage.velocity_gradient = cost.velocity_gradient - qp.model.velocity_weight * x.v;
   }
 }
 
 }  // namespace
 
+QpModels makeQpModels(const Parameters& parameters) {
+  const CostParameters& cost = parameters.cost;
+  const double dt = parameters.time.sampling_time;
+  QpModel model;
+  model.dt = dt;
+  model.along_weight = 2.0 * dt * cost.eta;
+  model.across_weight = 2.0 * dt * (std::max(cost.alpha, cost.beta) + cost.eta);
+  model.velocity_weight = velocityWeight(parameters);
+  model.jerk_weight = jerkWeight(parameters);
+  model.drag_over_mass = parameters.vehicle.dragOverMass().mean();
+  model.slack_linear = parameters.sqp.slack_linear;
+  model.slack_quadratic = parameters.sqp.slack_quadratic;
+  QpModels models{model, model};
+  models.corner.along_weight = model.across_weight;
+  return models;
+}
+
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp) {
-  const SqpParameters& sqp = problem.parameters->sqp;
   qp.start = problem.start;
-  qp.dt = problem.dt;
-  qp.velocity_weight = velocityWeight(problem);
-  qp.jerk_weight = jerkWeight(problem);
-  qp.slack_linear = sqp.slack_linear;
-  qp.slack_quadratic = sqp.slack_quadratic;
-  qp.outputs = makeOutputGains(problem.dt, problem.bounds.drag_over_mass);
+  qp.clear();
   setCost(problem, iterate, qp);
 
-  qp.clearRows();
   Box box;
   const bool bounded = problem.bounds.workspace.max.allFinite();
   for (int k = 0; k < kHorizon; ++k) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+
 #include "swarm_planner/sqp/linearisation.hpp"
 
 namespace swarm_planner {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -56,8 +57,10 @@ class SwarmPlanner::Impl {
     }
     report.uavs.resize(uavs.size());
     order.reserve(uavs.size());
+    const QpModels models = makeQpModels(parameters);
+    const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, uavs.size() + maxObstacles(mission));
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxObstacles(mission));
     }
   }
 

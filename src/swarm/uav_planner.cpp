@@ -4,18 +4,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "swarm_planner/solver/interior_point.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 
 namespace swarm_planner {
-namespace {
-
-/// Constraints met to a micrometre: what the solver leaves is far below the tracking margin.
-constexpr InteriorPointSolver::Settings kSolverSettings{40, 1e-6, 1e-6};
-
-}  // namespace
-
 void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length, double speed) {
   reference = MovingTarget();
   reference.path = ReferencePath(path);
@@ -40,8 +32,10 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, do
   start = predictFromPlan(committed, flies_previous ? previous : committed, measurement, epoch, tracking_time);
 }
 
-UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace, std::size_t max_bodies)
-    : parameters_(parameters), sqp_(std::make_unique<InteriorPointSolver>(kSolverSettings)) {
+UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
+                       std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
+    : parameters_(parameters),
+      sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
   problem_.bounds = FlightBounds(parameters, workspace ? &*workspace : nullptr);

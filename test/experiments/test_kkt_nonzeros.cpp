@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "swarm_planner/experiments/kkt_nonzeros.hpp"
-#include "swarm_planner/solver/qp.hpp"
+#include "swarm_planner/sqp/linearisation.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -14,7 +14,7 @@ long long entries(const OutputGains& gains, const Vector3& n) {
   long long count = 0;
   for (int axis = 0; axis < 3; ++axis) {
     if (n(axis) == 0.0) continue;
-    count += (gains.p != 0.0 ? 1 : 0) + (gains.v(axis) != 0.0 ? 1 : 0) + (gains.a != 0.0 ? 1 : 0);
+    count += (gains.p != 0.0 ? 1 : 0) + (gains.v != 0.0 ? 1 : 0) + (gains.a != 0.0 ? 1 : 0);
   }
   return count;
 }
@@ -22,7 +22,7 @@ long long entries(const OutputGains& gains, const Vector3& n) {
 class KktCount {
  public:
   explicit KktCount(const Mission& mission)
-      : gains_(makeOutputGains(mission.parameters.time.sampling_time, mission.parameters.vehicle.dragOverMass())) {}
+      : gains_(makeQpModels(mission.parameters).straight.outputs()) {}
 
   void addRow(Output output, const Vector3& n) {
     // The row and its slack, the slack's sign, both mirrored; the slack's penalty.

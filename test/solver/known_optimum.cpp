@@ -1,7 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "known_optimum.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 namespace swarm_planner {
 namespace {
@@ -10,6 +12,7 @@ class Random {
  public:
   explicit Random(std::mt19937_64& engine) : engine_(engine) {}
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Matrix3 rotation() { return Eigen::AngleAxisd(uniform(-M_PI, M_PI), vector(1.0).normalized()).toRotationMatrix(); }
   Vector3 vector(double scale) { return scale * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); }
 
  private:
@@ -20,28 +23,42 @@ struct Costate {
   Vector3 p = Vector3::Zero(), v = Vector3::Zero(), a = Vector3::Zero();
 };
 
-void addRows(Qp& qp, QpSolution& solution, std::size_t k, const RowMix& mix, Random& random) {
+void addRows(KnownOptimum& known, std::size_t k, const RowMix& mix, Random& random) {
   const int total = mix.active + mix.softened + mix.inactive;
   for (int i = 0; i < total; ++i) {
     const auto output = static_cast<Output>(static_cast<int>(random.uniform(0.0, kOutputCount - 1e-9)));
-    qp.addRow(static_cast<int>(k), output, random.vector(1.0).normalized(), 0.0);
+    known.qp.addRow(static_cast<int>(k), output, random.vector(1.0).normalized(), 0.0);
     double multiplier = 0.0;
-    if (i < mix.active) multiplier = random.uniform(0.05, 0.95) * qp.slack_linear;
-    if (i >= mix.active && i < mix.active + mix.softened) multiplier = random.uniform(1.1, 2.0) * qp.slack_linear;
-    solution.multipliers[k][static_cast<std::size_t>(i)] = multiplier;
+    if (i < mix.active) multiplier = random.uniform(0.05, 0.95) * known.qp.model.slack_linear;
+    if (i >= mix.active && i < mix.active + mix.softened) multiplier = random.uniform(1.1, 2.0) * known.qp.model.slack_linear;
+    known.multipliers[k][static_cast<std::size_t>(i)] = multiplier;
   }
 }
 
 /// Offsets that make each row what its multiplier says.
-void setOffsets(Qp& qp, const QpSolution& solution, const Trajectory& x, std::size_t k, Random& random) {
+void setOffsets(KnownOptimum& known, const Trajectory& x, std::size_t k, Random& random) {
+  Qp& qp = known.qp;
   QpStage& stage = qp.stages[k];
   for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
     QpRow& row = stage.rows[i];
     const double value = row.n.dot(outputValue(qp.outputs[static_cast<std::size_t>(row.output)], x.knots[k]));
-    const double multiplier = solution.multipliers[k][i];
-    row.d = value + std::max(0.0, multiplier - qp.slack_linear) / qp.slack_quadratic;
+    const double multiplier = known.multipliers[k][i];
+    row.d = value + std::max(0.0, multiplier - qp.model.slack_linear) / qp.model.slack_quadratic;
     if (multiplier == 0.0) row.d = value - random.uniform(0.05, 2.0);
   }
+}
+
+QpModel randomModel(Random& random) {
+  QpModel model;
+  model.dt = random.uniform(0.1, 0.4);
+  model.along_weight = random.uniform(0.05, 1.0);
+  model.across_weight = random.uniform(0.05, 1.0);
+  model.velocity_weight = random.uniform(0.0, 1.0);
+  model.jerk_weight = random.uniform(0.05, 1.0);
+  model.drag_over_mass = random.uniform(0.0, 1.0);
+  model.slack_linear = random.uniform(1.0, 5.0);
+  model.slack_quadratic = random.uniform(1.0, 20.0);
+  return model;
 }
 
 }  // namespace
@@ -50,73 +67,69 @@ KnownOptimum makeKnownOptimum(const RowMix& mix, std::mt19937_64& engine) {
   Random random(engine);
   KnownOptimum known;
   Qp& qp = known.qp;
-  qp.dt = random.uniform(0.1, 0.4);
-  qp.velocity_weight = random.uniform(0.0, 1.0);
-  qp.jerk_weight = random.uniform(0.05, 1.0);
-  qp.slack_linear = random.uniform(1.0, 5.0);
-  qp.slack_quadratic = random.uniform(1.0, 20.0);
-  qp.outputs = makeOutputGains(qp.dt, Vector3(0.5, 0.6, 0.7));
+  qp.setModel(randomModel(random));
+  const double dt = qp.model.dt;
+  qp.axes = random.rotation();
   qp.start = {random.vector(10.0), random.vector(3.0), random.vector(2.0)};
 
   Costate costate;
   for (std::size_t k = kHorizon; k >= 1; --k) {
-    addRows(qp, known.solution, k, mix, random);
+    addRows(known, k, mix, random);
     QpStage& stage = qp.stages[k];
-    const Vector3 root = random.vector(1.0);
-    stage.position_hessian = root * root.transpose() + 0.1 * Matrix3::Identity();
+    if (k % 3 == 0) qp.addCurvature(static_cast<int>(k), random.vector(1.0).normalized(), random.uniform(0.1, 2.0));
     // The acceleration has no free gradient: its costate follows from the next stage's; the others are chosen.
-    costate.a += 0.5 * qp.dt * qp.dt * costate.p + qp.dt * costate.v;
+    costate.a += 0.5 * dt * dt * costate.p + dt * costate.v;
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
-      const double multiplier = known.solution.multipliers[k][i];
+      const double multiplier = known.multipliers[k][i];
       costate.a -= multiplier * qp.outputs[static_cast<std::size_t>(stage.rows[i].output)].a * stage.rows[i].n;
     }
     // What the stage's gradients have to make up for is kept in them until the states are known.
     stage.position_gradient = -costate.p;
-    stage.velocity_gradient = -(costate.v + qp.dt * costate.p);
+    stage.velocity_gradient = -(costate.v + dt * costate.p);
     costate.p = random.vector(2.0);
     costate.v = random.vector(2.0);
     stage.position_gradient += costate.p;
     stage.velocity_gradient += costate.v;
     known.solution.jerks[k - 1] =
-        -(qp.dt * qp.dt * qp.dt / 6.0 * costate.p + 0.5 * qp.dt * qp.dt * costate.v + qp.dt * costate.a) /
-        qp.jerk_weight;
+        -(dt * dt * dt / 6.0 * costate.p + 0.5 * dt * dt * costate.v + dt * costate.a) /
+        qp.model.jerk_weight;
   }
   Trajectory x;
-  x.dt = qp.dt;
+  x.dt = dt;
   x.jerks = known.solution.jerks;
   rollOut(qp.start, x);
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     QpStage& stage = qp.stages[k];
-    stage.position_gradient -= stage.position_hessian * x.knots[k].p;
-    stage.velocity_gradient -= qp.velocity_weight * x.knots[k].v;
+    stage.position_gradient -= qp.positionHessian(static_cast<int>(k)) * x.knots[k].p;
+    stage.velocity_gradient -= qp.model.velocity_weight * x.knots[k].v;
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const OutputGains& gains = qp.outputs[static_cast<std::size_t>(stage.rows[i].output)];
-      const Vector3 pull = known.solution.multipliers[k][i] * stage.rows[i].n;
+      const Vector3 pull = known.multipliers[k][i] * stage.rows[i].n;
       stage.position_gradient += gains.p * pull;
-      stage.velocity_gradient += gains.v.cwiseProduct(pull);
+      stage.velocity_gradient += gains.v * pull;
     }
-    setOffsets(qp, known.solution, x, k, random);
+    setOffsets(known, x, k, random);
   }
   return known;
 }
 
 double objective(const Qp& qp, const std::array<Vector3, kHorizon>& jerks) {
   Trajectory x;
-  x.dt = qp.dt;
+  x.dt = qp.model.dt;
   x.jerks = jerks;
   rollOut(qp.start, x);
   double sum = 0.0;
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = qp.stages[k];
     const KinematicState& s = x.knots[k];
-    sum += 0.5 * s.p.dot(stage.position_hessian * s.p) + stage.position_gradient.dot(s.p);
-    sum += 0.5 * qp.velocity_weight * s.v.squaredNorm() + stage.velocity_gradient.dot(s.v);
-    sum += 0.5 * qp.jerk_weight * jerks[k - 1].squaredNorm();
+    sum += 0.5 * s.p.dot(qp.positionHessian(static_cast<int>(k)) * s.p) + stage.position_gradient.dot(s.p);
+    sum += 0.5 * qp.model.velocity_weight * s.v.squaredNorm() + stage.velocity_gradient.dot(s.v);
+    sum += 0.5 * qp.model.jerk_weight * jerks[k - 1].squaredNorm();
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const QpRow& row = stage.rows[i];
       const double slack =
           std::max(0.0, row.d - row.n.dot(outputValue(qp.outputs[static_cast<std::size_t>(row.output)], s)));
-      sum += qp.slack_linear * slack + 0.5 * qp.slack_quadratic * slack * slack;
+      sum += qp.model.slack_linear * slack + 0.5 * qp.model.slack_quadratic * slack * slack;
     }
   }
   return sum;

@@ -11,6 +11,8 @@ namespace swarm_planner {
 struct KnownOptimum {
   Qp qp;
   QpSolution solution;
+  /// Multiplier of each row, in the layout of Qp::stages[k].rows.
+  std::array<std::array<double, kMaxStageRows>, kHorizon + 1> multipliers{};
 };
 
 /// How many rows each stage of a random QP gets, by what they are at the optimum.

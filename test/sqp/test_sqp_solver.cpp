@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
+#include "reference/interior_point.hpp"
 #include "support/flight_problem.hpp"
 #include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 #include "swarm_planner/problem/tracking_cost.hpp"
-#include "swarm_planner/solver/interior_point.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 
 namespace swarm_planner {

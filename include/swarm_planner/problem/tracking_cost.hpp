@@ -26,13 +26,14 @@ struct StageCost {
   double value = 0.0;
   Vector3 position_gradient = Vector3::Zero();
   Vector3 velocity_gradient = Vector3::Zero();
-  Matrix3 position_hessian = Matrix3::Zero();  ///< robustness term projected to positive semi-definite
+  Matrix3 position_hessian = Matrix3::Zero();    ///< positive semi-definite
+  Matrix3 robustness_hessian = Matrix3::Zero();  ///< the robustness term's part of it, projected
 };
 StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x);
 
 /// Weight of 1/2 |v|^2 and of 1/2 |jerk|^2 in the sum over the stages.
-double velocityWeight(const UavProblem& problem);
-double jerkWeight(const UavProblem& problem);
+double velocityWeight(const Parameters& parameters);
+double jerkWeight(const Parameters& parameters);
 
 /// Cost (17) of a plan, summed over the stages times dt; the constant -1 of (8) is left out.
 double planCost(const UavProblem& problem, const Trajectory& plan);

@@ -18,24 +18,36 @@ enum class Output : std::uint8_t {
   kVelocity,              ///< v
   kVelocityControlPoint,  ///< v + dt/2 a
   kAcceleration,          ///< a
-  kThrustAcceleration,    ///< a + diag(k_d / M) v, A of (3)
+  kThrustAcceleration,    ///< a + k_d / M v, A of (3)
 };
 constexpr int kOutputCount = 7;
 
-/// y = p_gain p + v_gain o v + a_gain a of one output (o: per axis).
+/// y = p_gain p + v_gain v + a_gain a of one output.
 struct OutputGains {
   double p = 0.0;
-  Vector3 v = Vector3::Zero();  ///< [s] or as the output needs
+  double v = 0.0;  ///< [s], or [1/s] for the thrust
   double a = 0.0;
 };
 
-/// Gains of every output for a sampling time `dt` [s]; `drag_over_mass` [1/s].
-std::array<OutputGains, kOutputCount> makeOutputGains(double dt, const Vector3& drag_over_mass);
-
 /// The output's value at a state.
 inline Vector3 outputValue(const OutputGains& gains, const KinematicState& x) {
-  return gains.p * x.p + gains.v.cwiseProduct(x.v) + gains.a * x.a;
+  return gains.p * x.p + gains.v * x.v + gains.a * x.a;
 }
+
+/// What stays the same from QP to QP, so that a solver can compute tables from it beforehand.
+struct QpModel {
+  double dt = 0.0;               ///< [s]
+  double along_weight = 0.0;     ///< of 1/2 (first axis . p)^2, > 0
+  double across_weight = 0.0;    ///< of 1/2 (second axis . p)^2 and 1/2 (third axis . p)^2, > 0
+  double velocity_weight = 0.0;  ///< of 1/2 |v|^2, >= 0
+  double jerk_weight = 0.0;      ///< of 1/2 |jerk|^2, > 0
+  double drag_over_mass = 0.0;   ///< of the thrust output [1/s]
+  double slack_linear = 0.0;     ///< > 0
+  double slack_quadratic = 0.0;  ///< > 0
+
+  std::array<OutputGains, kOutputCount> outputs() const;
+  bool operator==(const QpModel& other) const;
+};
 
 /// Soft half-space n . y + s >= d, s >= 0 with penalty slack_linear s + 1/2 slack_quadratic s^2.
 struct QpRow {
@@ -44,34 +56,49 @@ struct QpRow {
   Output output = Output::kPosition;
 };
 
-/// Most rows that one stage can hold.
-constexpr int kMaxStageRows = 128;
+/// Curvature along one direction of a stage's position: 1/2 weight (n . p)^2.
+struct QpCurvature {
+  int stage = 1;
+  Vector3 n = Vector3::Zero();  ///< unit
+  double weight = 0.0;          ///< > 0
+};
 
-/// One stage k = 1..N: 1/2 p' Hp p + gp . p + 1/2 wv |v|^2 + gv . v, and its rows.
+/// Most rows that one output of one stage can hold: obstacles and UAVs for the first three, limits for the others.
+constexpr int kMaxBodyRows = 64;
+constexpr int kMaxLimitRows = 32;
+constexpr int kMaxStageRows = 3 * kMaxBodyRows + 4 * kMaxLimitRows;
+/// Most curvature terms of a QP: every direction of every stage.
+constexpr int kMaxCurvatures = 3 * kHorizon;
+
+/// One stage k = 1..N: gp . p + gv . v and its rows.
 struct QpStage {
-  Matrix3 position_hessian = Matrix3::Zero();  ///< positive semi-definite
   Vector3 position_gradient = Vector3::Zero();
   Vector3 velocity_gradient = Vector3::Zero();
   int row_count = 0;
+  std::array<int, kOutputCount> output_rows{};  ///< how many rows touch each output
   std::array<QpRow, kMaxStageRows> rows;
 };
 
-/// The quadratic program of one UAV: minimise the stages' costs plus 1/2 wj |j_k|^2 over the jerks j_0..j_{N-1},
-/// x_{k+1} = propagate(x_k, j_k, dt), x_0 given. Always feasible since every row is soft.
+/// The quadratic program of one UAV: minimise the stages' costs with the model's constant weights over the jerks
+/// j_0..j_{N-1}, x_{k+1} = propagate(x_k, j_k, dt), x_0 given. Always feasible since every row is soft.
 struct Qp {
+  QpModel model;
+  std::array<OutputGains, kOutputCount> outputs;  ///< the model's
+  Matrix3 axes = Matrix3::Identity();  ///< orthonormal columns, in which the position weights hold
   KinematicState start;
-  double dt = 0.0;               ///< [s]
-  double velocity_weight = 0.0;  ///< wv >= 0
-  double jerk_weight = 0.0;      ///< wj > 0
-  double slack_linear = 0.0;     ///< > 0
-  double slack_quadratic = 0.0;  ///< > 0
-  std::array<OutputGains, kOutputCount> outputs;
+  int curvature_count = 0;
+  std::array<QpCurvature, kMaxCurvatures> curvatures;
   std::array<QpStage, kHorizon + 1> stages;  ///< stage 0 is not used: x_0 is fixed
 
-  void clearRows();
-  /// Appends a row to stage 1..N; false if the stage is full.
+  void setModel(const QpModel& new_model);
+  void clear();  ///< no rows, no curvatures
+  /// Appends a row to stage 1..N; false if there is no room for it.
   bool addRow(int stage, Output output, const Vector3& n, double d);
+  /// Appends a curvature term; false if there is no room for it.
+  bool addCurvature(int stage, const Vector3& n, double weight);
   int rowCount() const;
+  /// Hessian in the position of stage 1..N: weights along the axes plus curvature terms.
+  Matrix3 positionHessian(int stage) const;
 };
 
 /// How a solve ended.
@@ -83,11 +110,10 @@ enum class QpStatus : std::uint8_t {
 
 struct QpSolution {
   QpStatus status = QpStatus::kNotFinite;
-  int iterations = 0;
+  int iterations = 0;      ///< changes of the active set, or Newton steps
+  bool fell_back = false;  ///< the second method answered, since the first met its cap
   double max_slack = 0.0;
   std::array<Vector3, kHorizon> jerks;
-  /// Multiplier of each row, in [0, slack_linear + slack_quadratic s]; same layout as Qp::stages[k].rows.
-  std::array<std::array<double, kMaxStageRows>, kHorizon + 1> multipliers;
 };
 
 /// A solver of Qp. One object per thread; keeps its memory; never allocates while solving.

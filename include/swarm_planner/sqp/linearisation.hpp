@@ -6,9 +6,18 @@
 
 namespace swarm_planner {
 
-/// Poses the QP of a problem at an iterate: second-order model of the cost (the robustness Hessian projected),
-/// half-spaces for the bodies on all control points of a segment, tangent planes for the norm limits. Only what
-/// lies within `band` [m] of the iterate gets rows.
+/// The constant parts that the QPs of a swarm have. For a reference with one tangent over the horizon the position's
+/// weights differ along and across it; for one with corners they are the larger one in every direction.
+struct QpModels {
+  QpModel straight;
+  QpModel corner;
+};
+QpModels makeQpModels(const Parameters& parameters);
+
+/// Poses the QP of a problem at an iterate: the cost's gradient is exact there, its curvature that of the model, at
+/// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies on
+/// all control points of a segment, tangent planes for the norm limits. Only what lies within `band` [m] of the iterate
+/// gets rows.
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp);
 
 /// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the

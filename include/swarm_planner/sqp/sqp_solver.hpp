@@ -21,6 +21,7 @@ struct SqpResult {
 /// penalty function, repeat, at most max_iterations times. The plan returned is never worse than the initial guess.
 class SqpSolver {
  public:
+  /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
   explicit SqpSolver(std::unique_ptr<QpSolver> qp_solver);
 
   /// Improves `plan`, which has to start at problem.start (a roll-out of any jerks).

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "swarm_planner/problem/uav_problem.hpp"
+#include "swarm_planner/solver/generated_solver.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
@@ -37,8 +38,10 @@ struct UavRecord {
 /// takes, so that every thread needs one of its own.
 class UavPlanner {
  public:
-  /// At most `max_bodies` obstacles and UAVs before memory has to grow. `parameters` must outlive this.
-  UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace, std::size_t max_bodies);
+  /// `tables`: of makeQpModels(parameters). At most `max_bodies` obstacles and UAVs before memory has to grow.
+  /// `parameters` must outlive this.
+  UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
+             std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies);
 
   /// A plan for `epoch` from record.start on. `uav`: its index in `surroundings`, which learns of the new plan.
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-#include "swarm_planner/solver/interior_point.hpp"
+#include "reference/interior_point.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,39 +18,36 @@ double rowValue(const Qp& qp, const QpRow& row, const KinematicState& x) {
 /// Adds the gradient of scaled_normal . y in the state to a stage's gradient.
 void addRowGradient(const OutputGains& gains, const Vector3& scaled_normal, Vector9& gradient) {
   gradient.head<3>() += gains.p * scaled_normal;
-  gradient.segment<3>(3) += gains.v.cwiseProduct(scaled_normal);
+  gradient.segment<3>(3) += gains.v * scaled_normal;
   gradient.tail<3>() += gains.a * scaled_normal;
 }
 
 /// Adds the Hessian of 1/2 y' outer y in the state to a stage's Hessian.
 void addOutputHessian(const OutputGains& gains, const Matrix3& outer, Matrix9& hessian) {
-  const Matrix3 outer_v = outer * gains.v.asDiagonal();
-  hessian.block<3, 3>(0, 0) += gains.p * gains.p * outer;
-  hessian.block<3, 3>(0, 3) += gains.p * outer_v;
-  hessian.block<3, 3>(3, 0) += gains.p * outer_v.transpose();
-  hessian.block<3, 3>(3, 3) += gains.v.asDiagonal() * outer_v;
-  hessian.block<3, 3>(0, 6) += gains.p * gains.a * outer;
-  hessian.block<3, 3>(6, 0) += gains.p * gains.a * outer;
-  hessian.block<3, 3>(3, 6) += gains.a * outer_v.transpose();
-  hessian.block<3, 3>(6, 3) += gains.a * outer_v;
-  hessian.block<3, 3>(6, 6) += gains.a * gains.a * outer;
+  const std::array<double, 3> gain{gains.p, gains.v, gains.a};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const double weight = gain[static_cast<std::size_t>(i)] * gain[static_cast<std::size_t>(j)];
+      hessian.block<3, 3>(3 * i, 3 * j) += weight * outer;
+    }
+  }
 }
 
 /// The stage's own Hessian, without rows.
-void setCostHessian(const Qp& qp, const QpStage& stage, Matrix9& hessian) {
+void setCostHessian(const Qp& qp, std::size_t k, Matrix9& hessian) {
   hessian.setZero();
-  hessian.block<3, 3>(0, 0) = stage.position_hessian;
-  hessian.block<3, 3>(3, 3).diagonal().setConstant(qp.velocity_weight);
+  hessian.block<3, 3>(0, 0) = qp.positionHessian(static_cast<int>(k));
+  hessian.block<3, 3>(3, 3).diagonal().setConstant(qp.model.velocity_weight);
 }
 
 /// Gradients of the cost, without rows, at an iterate.
 void setCostGradients(const Qp& qp, const Trajectory& iterate, StageGradients& gradients) {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const KinematicState& x = iterate.knots[k];
-    gradients.x[k].head<3>() = qp.stages[k].position_hessian * x.p + qp.stages[k].position_gradient;
-    gradients.x[k].segment<3>(3) = qp.velocity_weight * x.v + qp.stages[k].velocity_gradient;
+    gradients.x[k].head<3>() = qp.positionHessian(static_cast<int>(k)) * x.p + qp.stages[k].position_gradient;
+    gradients.x[k].segment<3>(3) = qp.model.velocity_weight * x.v + qp.stages[k].velocity_gradient;
     gradients.x[k].tail<3>().setZero();
-    gradients.jerk[k - 1] = qp.jerk_weight * iterate.jerks[k - 1];
+    gradients.jerk[k - 1] = qp.model.jerk_weight * iterate.jerks[k - 1];
   }
 }
 
@@ -84,12 +81,12 @@ QpStatus InteriorPointSolver::solve(const Qp& qp, QpSolution& solution) {
 }
 
 void InteriorPointSolver::solveUnconstrained(const Qp& qp) {
-  iterate_.dt = qp.dt;
+  iterate_.dt = qp.model.dt;
   iterate_.jerks.fill(Vector3::Zero());
   rollOut(qp.start, iterate_);
-  for (std::size_t k = 1; k <= kHorizon; ++k) setCostHessian(qp, qp.stages[k], riccati_.hessian(static_cast<int>(k)));
+  for (std::size_t k = 1; k <= kHorizon; ++k) setCostHessian(qp, k, riccati_.hessian(static_cast<int>(k)));
   setCostGradients(qp, iterate_, gradients_);
-  riccati_.factorise(qp.dt, qp.jerk_weight);
+  riccati_.factorise(qp.model.dt, qp.model.jerk_weight);
   riccati_.solve(gradients_, step_);
   for (std::size_t k = 0; k < kHorizon; ++k) iterate_.jerks[k] += step_.jerks[k];
   rollOut(qp.start, iterate_);
@@ -111,8 +108,8 @@ void InteriorPointSolver::initialiseRows(const Qp& qp) {
     const double inside = 0.1;  // [m], [m/s] or [m/s^2]
     r.t = std::max(distance, inside);
     r.s = std::max(-distance, inside);
-    r.lambda = 0.5 * qp.slack_linear * inside / r.t;
-    r.mu = qp.slack_linear - r.lambda;
+    r.lambda = 0.5 * qp.model.slack_linear * inside / r.t;
+    r.mu = qp.model.slack_linear - r.lambda;
   });
 }
 
@@ -136,25 +133,25 @@ bool InteriorPointSolver::converged(const Qp& qp) {
   double residual = 0.0;
   forEachRow(qp, [&](std::size_t k, const QpRow& row, RowState& r) {
     r.r_primal = rowValue(qp, row, iterate_.knots[k]) + r.s - r.t - row.d;
-    r.r_slack = qp.slack_linear + qp.slack_quadratic * r.s - r.lambda - r.mu;
+    r.r_slack = qp.model.slack_linear + qp.model.slack_quadratic * r.s - r.lambda - r.mu;
     complementarity += r.t * r.lambda + r.s * r.mu;
-    residual = std::max({residual, std::abs(r.r_primal), std::abs(r.r_slack) / qp.slack_linear});
+    residual = std::max({residual, std::abs(r.r_primal), std::abs(r.r_slack) / qp.model.slack_linear});
   });
   mean_complementarity_ = complementarity / (2.0 * row_total_);
-  return mean_complementarity_ <= settings_.gap_tolerance * qp.slack_linear && residual <= settings_.residual_tolerance;
+  return mean_complementarity_ <= settings_.gap_tolerance * qp.model.slack_linear && residual <= settings_.residual_tolerance;
 }
 
 void InteriorPointSolver::factorise(const Qp& qp) {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = qp.stages[k];
     Matrix9& hessian = riccati_.hessian(static_cast<int>(k));
-    setCostHessian(qp, stage, hessian);
+    setCostHessian(qp, k, hessian);
     std::array<Matrix3, kOutputCount> outer;
     std::array<bool, kOutputCount> used{};
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const QpRow& row = stage.rows[i];
       RowState& r = rows_[k][i];
-      r.compliance = 1.0 / (qp.slack_quadratic + r.mu / r.s);
+      r.compliance = 1.0 / (qp.model.slack_quadratic + r.mu / r.s);
       r.weight = 1.0 / (r.compliance + r.t / r.lambda);
       const auto output = static_cast<std::size_t>(row.output);
       if (!used[output]) outer[output].setZero();
@@ -165,7 +162,7 @@ void InteriorPointSolver::factorise(const Qp& qp) {
       if (used[output]) addOutputHessian(qp.outputs[output], outer[output], hessian);
     }
   }
-  riccati_.factorise(qp.dt, qp.jerk_weight);
+  riccati_.factorise(qp.model.dt, qp.model.jerk_weight);
 }
 
 /// Solves for the Newton step. The corrector aims at `centring` times the mean complementarity and adds the
@@ -227,11 +224,6 @@ void InteriorPointSolver::writeSolution(const Qp& qp, QpSolution& solution) {
     finite = finite && std::isfinite(slack);
     solution.max_slack = std::max(solution.max_slack, slack);
   });
-  for (std::size_t k = 1; k <= kHorizon; ++k) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(qp.stages[k].row_count); ++i) {
-      solution.multipliers[k][i] = row_total_ > 0 ? rows_[k][i].lambda : 0.0;
-    }
-  }
   if (!finite) solution.status = QpStatus::kNotFinite;
 }
 

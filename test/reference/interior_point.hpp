@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include "reference/riccati.hpp"
 #include "swarm_planner/solver/qp.hpp"
-#include "swarm_planner/solver/riccati.hpp"
 
 namespace swarm_planner {
 
-/// Primal-dual interior-point method (Mehrotra's predictor and corrector) with a Riccati recursion over the
+/// The reference that generated solvers are compared with: a primal-dual interior-point method (Mehrotra's predictor and corrector) with a Riccati recursion over the
 /// stages. A row's slack and both of its complementarity pairs are eliminated, so that a row costs one
 /// rank-one term in its stage's Hessian. Where no row is violated at the unconstrained optimum, that is the
 /// answer after one recursion.

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-#include "swarm_planner/solver/riccati.hpp"
+#include "reference/riccati.hpp"
 
 #include <Eigen/Cholesky>
 

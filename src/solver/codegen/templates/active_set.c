@@ -1,0 +1,301 @@
+/* ---- Dual active set (Goldfarb and Idnani) on the tables. ----
+   The working set's rows hold n . y + flexibility * multiplier = target. Its multipliers are known exactly through the
+   inverse of its Gram matrix, kept up to date by rank-one changes. A soft row is rigid up to the multiplier
+   `row_linear` and has flexibility 1 / quadratic above: a change of part is a rank-one change as well. */
+
+typedef struct {
+  int id;
+  int output, index;         /* of the stage */
+  int place[QPC_COMPONENTS]; /* flat, in qpc_solver.output */
+  double normal[QPC_COMPONENTS];
+  double offset;
+  double linear, compliance; /* hard: QPC_UNBOUNDED, 0 */
+} qpc_row;
+
+#define QPC_IS_QUADRATIC(id) ((id) >= QPC_FIRST_QUADRATIC_ID)
+
+/* Takes a row or bound out of the scan while it is in the working set, or puts it back. */
+static void qpc_mask_row(qpc_solver* s, int id, int masked, double offset) {
+  if (id < QPC_FIRST_BOUND_ID) {
+    s->row_offset[id] = masked ? -QPC_UNBOUNDED : offset;
+  } else if (!QPC_IS_QUADRATIC(id)) {
+    const int place = (id - QPC_FIRST_BOUND_ID) / 2;
+    if ((id - QPC_FIRST_BOUND_ID) % 2 != 0) {
+      s->upper[place] = masked ? QPC_UNBOUNDED : -offset;
+    } else {
+      s->lower[place] = masked ? -QPC_UNBOUNDED : offset;
+    }
+  }
+}
+
+/* The three below return 0 if the row's penalty does not exist. */
+static int qpc_load_slot(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
+  int o = 0;
+  while (o + 1 < QPC_OUTPUTS && id >= qpc_first_slot[o + 1]) ++o;
+  const int within = id - qpc_first_slot[o];
+  const int index = qpc_row_stride[o] == 1 ? within / qpc_stage_stride[o] : within % qpc_row_stride[o];
+  const int penalty = s->row_penalty[id];
+  row->output = o;
+  row->index = index;
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    row->place[c] = qpc_output_place[o][c] + index;
+    row->normal[c] = s->row_normal[c][id];
+  }
+  row->offset = s->row_offset[id];
+  if (penalty > QPC_PENALTIES) return 0;
+  row->linear = t->penalty_linear[penalty];
+  row->compliance = t->compliance[penalty];
+  if (s->scaled && penalty > 0) {
+    row->linear /= s->row_scale[id];
+    row->compliance *= s->row_scale[id] * s->row_scale[id];
+  }
+  return 1;
+}
+
+static int qpc_load_bound(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
+  const int is_upper = (id - QPC_FIRST_BOUND_ID) % 2;
+  const int place = (id - QPC_FIRST_BOUND_ID) / 2;
+  const int block = place / QPC_POINTS_PADDED, channel = place % QPC_POINTS_PADDED / QPC_HORIZON;
+  const int penalty = qpc_bound_penalty[block][channel];
+  row->output = qpc_channel_output[block][channel];
+  row->index = place % QPC_POINTS_PADDED % QPC_HORIZON;
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    row->place[c] = qpc_output_place[row->output][c] + row->index;
+    row->normal[c] = 0.0;
+  }
+  row->normal[qpc_channel_component[block][channel]] = is_upper ? -1.0 : 1.0;
+  row->offset = is_upper ? -s->upper[place] : s->lower[place];
+  row->linear = t->penalty_linear[penalty];
+  row->compliance = t->compliance[penalty];
+  return 1;
+}
+
+static int qpc_load_row(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
+  row->id = id;
+  if (id < QPC_FIRST_BOUND_ID) return qpc_load_slot(t, s, id, row);
+  if (!QPC_IS_QUADRATIC(id)) return qpc_load_bound(t, s, id, row);
+  const int i = id - QPC_FIRST_QUADRATIC_ID;
+  row->output = s->quadratic_output[i];
+  row->index = s->quadratic_index[i];
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    row->place[c] = qpc_output_place[row->output][c] + row->index;
+    row->normal[c] = s->quadratic_normal[i][c];
+  }
+  row->offset = s->quadratic_offset[i];
+  row->linear = 0.0;
+  row->compliance = 1.0 / s->quadratic_weight[i];
+  return 1;
+}
+
+/* G H^-1 G' between the row and itself. */
+static double qpc_gram_self(const qpc_tables* t, const qpc_row* row) {
+  double sum = 0.0;
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    const int block = row->place[c] / QPC_POINTS_PADDED, point = row->place[c] % QPC_POINTS_PADDED;
+    const double(*gram)[QPC_POINTS_PADDED] = t->gram[qpc_class_of_block[block]];
+    if (QPC_ALIGNED) {
+      sum += row->normal[c] * row->normal[c] * gram[point][point];
+      continue;
+    }
+    for (int e = 0; e < QPC_COMPONENTS; ++e) {
+      if (row->place[e] / QPC_POINTS_PADDED != block) continue;
+      sum += row->normal[c] * row->normal[e] * gram[point][row->place[e] % QPC_POINTS_PADDED];
+    }
+  }
+  return sum;
+}
+
+/* column_i = G H^-1 G' between the row and each of the working set's. */
+static void qpc_gram_column(const qpc_tables* t, qpc_solver* s, const qpc_row* row) {
+  const int n = s->active_count;
+#if QPC_ALIGNED
+  const int point = row->place[0];
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0;
+    for (int c = 0; c < QPC_COMPONENTS; ++c) {
+      sum += row->normal[c] * s->normal[c][i] * t->gram[qpc_class_of_block[c]][point][s->point[0][i]];
+    }
+    s->column[i] = sum;
+  }
+#else
+  for (int i = 0; i < n; ++i) {
+    double sum = 0.0;
+    for (int c = 0; c < QPC_COMPONENTS; ++c) {
+      const int block = row->place[c] / QPC_POINTS_PADDED, point = row->place[c] % QPC_POINTS_PADDED;
+      for (int e = 0; e < QPC_COMPONENTS; ++e) {
+        if (s->point[e][i] / QPC_POINTS_PADDED != block) continue;
+        sum += row->normal[c] * s->normal[e][i] *
+               t->gram[qpc_class_of_block[block]][point][s->point[e][i] % QPC_POINTS_PADDED];
+      }
+    }
+    s->column[i] = sum;
+  }
+#endif
+  for (int i = n; i < QPC_ROUND_UP(n, QPC_WIDTH); ++i) s->column[i] = 0.0;
+}
+
+/* result = inverse_gram v */
+static void qpc_multiply_inverse(const qpc_solver* s, const double* v, double* result) {
+  const int n = s->active_count;
+  for (int j = 0; j < n; j += QPC_WIDTH) {
+    qpc_vector sum = QPC_BROADCAST(0.0), other = sum;
+    int i = 0;
+    for (; i + 1 < n; i += 2) {
+      sum += QPC_LOAD(&s->inverse_gram[i][j]) * v[i];
+      other += QPC_LOAD(&s->inverse_gram[i + 1][j]) * v[i + 1];
+    }
+    if (i < n) sum += QPC_LOAD(&s->inverse_gram[i][j]) * v[i];
+    QPC_STORE(&result[j], sum + other);
+  }
+}
+
+/* inverse_gram += factor v v' */
+static void qpc_rank_one(qpc_solver* s, const double* v, double factor) {
+  const int n = s->active_count;
+  for (int i = 0; i < n; ++i) {
+    const double f = factor * v[i];
+    for (int j = 0; j < n; j += QPC_WIDTH) {
+      QPC_STORE(&s->inverse_gram[i][j], QPC_LOAD(&s->inverse_gram[i][j]) + QPC_LOAD(&v[j]) * f);
+    }
+  }
+}
+
+/* Sets which part of its penalty entry i is in: the range of its multiplier, and what its equation says. */
+static void qpc_set_part(qpc_solver* s, int i, int soft) {
+  s->flexibility[i] = soft ? s->row_compliance[i] : 0.0;
+  s->least[i] = soft ? s->row_linear[i] : 0.0;
+  s->most[i] = soft ? QPC_UNBOUNDED : s->row_linear[i];
+  s->target[i] = s->offset[i] + (soft ? s->row_linear[i] * s->row_compliance[i] : 0.0);
+  if (QPC_IS_QUADRATIC(s->active_id[i])) s->least[i] = -QPC_UNBOUNDED;
+}
+
+/* Appends the row; `direction` = inverse_gram * column and `curvature`, its Schur complement, belong to it. */
+static void qpc_append(qpc_solver* s, const qpc_row* row, double lambda, int soft, double curvature) {
+  const int n = s->active_count;
+  qpc_rank_one(s, s->direction, 1.0 / curvature);
+  const int end = QPC_ROUND_UP(n + 1, 8);
+  for (int j = 0; j < end; ++j) s->inverse_gram[n][j] = j < n ? -s->direction[j] / curvature : 0.0;
+  s->inverse_gram[n][n] = 1.0 / curvature;
+  if (n % 8 == 0) {
+    for (int i = 0; i < n; ++i) {
+      for (int j = n; j < n + 8; ++j) s->inverse_gram[i][j] = 0.0;
+    }
+  }
+  for (int i = 0; i < n; ++i) s->inverse_gram[i][n] = s->inverse_gram[n][i];
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    s->point[c][n] = row->place[c];
+    s->normal[c][n] = row->normal[c];
+  }
+  s->active_id[n] = row->id;
+  s->offset[n] = row->offset;
+  s->row_linear[n] = row->linear;
+  s->row_compliance[n] = row->compliance;
+  s->lambda[n] = lambda;
+  s->active_count = n + 1;
+  qpc_set_part(s, n, soft);
+  qpc_mask_row(s, row->id, 1, 0.0);
+}
+
+static void qpc_copy_entry(qpc_solver* s, int to, int from) {
+  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+    s->point[c][to] = s->point[c][from];
+    s->normal[c][to] = s->normal[c][from];
+  }
+  s->active_id[to] = s->active_id[from];
+  s->offset[to] = s->offset[from];
+  s->target[to] = s->target[from];
+  s->flexibility[to] = s->flexibility[from];
+  s->row_compliance[to] = s->row_compliance[from];
+  s->row_linear[to] = s->row_linear[from];
+  s->least[to] = s->least[from];
+  s->most[to] = s->most[from];
+  s->lambda[to] = s->lambda[from];
+  s->column[to] = s->column[from];
+}
+
+/* Takes entry i out of the working set; the last entry takes its place. */
+static void qpc_remove(qpc_solver* s, int i) {
+  const int last = s->active_count - 1;
+  double v[QPC_ACTIVE_PADDED];
+  for (int j = 0; j < QPC_ROUND_UP(last + 1, 8); ++j) v[j] = s->inverse_gram[i][j];
+  qpc_rank_one(s, v, -1.0 / v[i]);
+  qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+  if (i != last) {
+    for (int j = 0; j <= last; ++j) s->inverse_gram[i][j] = s->inverse_gram[last][j];
+    for (int j = 0; j <= last; ++j) s->inverse_gram[j][i] = s->inverse_gram[j][last];
+    s->inverse_gram[i][i] = s->inverse_gram[last][last];
+    qpc_copy_entry(s, i, last);
+  }
+  for (int j = 0; j <= last; ++j) s->inverse_gram[j][last] = 0.0;
+  s->column[last] = 0.0;
+  s->active_count = last;
+}
+
+/* output = free_output + sum over the working set of multiplier times the tables' columns. */
+static void qpc_update_outputs(const qpc_tables* t, qpc_solver* s) {
+  const int n = s->active_count;
+#if QPC_ALIGNED
+  for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_TILE * QPC_WIDTH) {
+    qpc_vector sum[QPC_BLOCKS][QPC_TILE];
+    for (int b = 0; b < QPC_BLOCKS; ++b) {
+      for (int l = 0; l < QPC_TILE; ++l) {
+        sum[b][l] = QPC_LOAD(&s->free_output[b * QPC_POINTS_PADDED + j + l * QPC_WIDTH]);
+      }
+    }
+    for (int i = 0; i < n; ++i) {
+      const double lambda = s->lambda[i];
+      for (int b = 0; b < QPC_BLOCKS; ++b) {
+        const double* column = &t->gram[qpc_class_of_block[b]][s->point[0][i]][j];
+        const double force = lambda * s->normal[b][i];
+        for (int l = 0; l < QPC_TILE; ++l) sum[b][l] += QPC_LOAD(column + l * QPC_WIDTH) * force;
+      }
+    }
+    for (int b = 0; b < QPC_BLOCKS; ++b) {
+      for (int l = 0; l < QPC_TILE; ++l) QPC_STORE(&s->output[b * QPC_POINTS_PADDED + j + l * QPC_WIDTH], sum[b][l]);
+    }
+  }
+#else
+  for (int j = 0; j < QPC_BLOCKS * QPC_POINTS_PADDED; ++j) s->output[j] = s->free_output[j];
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < QPC_COMPONENTS; ++c) {
+      const int block = s->point[c][i] / QPC_POINTS_PADDED, point = s->point[c][i] % QPC_POINTS_PADDED;
+      const double* column = t->gram[qpc_class_of_block[block]][point];
+      const double force = s->lambda[i] * s->normal[c][i];
+      for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_WIDTH) {
+        double* y = &s->output[block * QPC_POINTS_PADDED + j];
+        QPC_STORE(y, QPC_LOAD(y) + QPC_LOAD(column + j) * force);
+      }
+    }
+  }
+#endif
+}
+
+/* Moves entry i to the other part of its penalty. 0 if the rigid part would make the working set dependent. */
+static int qpc_change_part(qpc_solver* s, int i) {
+  const int soft = s->flexibility[i] == 0.0;
+  const double change = soft ? s->row_compliance[i] : -s->row_compliance[i];
+  double v[QPC_ACTIVE_PADDED];
+  const double pivot = 1.0 + change * s->inverse_gram[i][i];
+  if (!soft && pivot < 1e-10) return 0;
+  for (int j = 0; j < QPC_ROUND_UP(s->active_count, 8); ++j) v[j] = s->inverse_gram[i][j];
+  qpc_rank_one(s, v, -change / pivot);
+  qpc_set_part(s, i, soft);
+  return 1;
+}
+
+/* The longest step t >= 0 of lambda - t * rate that keeps every multiplier in its range, and the entry that stops it
+   (-1: none). */
+static double qpc_longest_step(const qpc_solver* s, const double* rate, int* blocking) {
+  double step = QPC_UNBOUNDED;
+  *blocking = -1;
+  for (int i = 0; i < s->active_count; ++i) {
+    const double edge = rate[i] > 0.0 ? s->least[i] : s->most[i];
+    const double room = s->lambda[i] - edge;
+    if (rate[i] == 0.0 || edge <= -QPC_UNBOUNDED || edge >= QPC_UNBOUNDED) continue;
+    if (room / rate[i] < step) {
+      step = room / rate[i];
+      *blocking = i;
+    }
+  }
+  return step > 0.0 ? step : 0.0;
+}

@@ -1,0 +1,150 @@
+/* ---- The solver's functions. ---- */
+
+void qpc_function(init)(qpc_solver* s, const qpc_tables* t) {
+  uint8_t* bytes = (uint8_t*)s;
+  for (size_t i = 0; i < sizeof *s; ++i) bytes[i] = 0;
+  s->tolerance = 1e-8;
+  for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) {
+    s->lower[i] = t->lower[i];
+    s->upper[i] = t->upper[i];
+  }
+  for (int o = 0; o < QPC_OUTPUTS; ++o) {
+    for (int slot = qpc_first_slot[o]; slot < (o + 1 < QPC_OUTPUTS ? qpc_first_slot[o + 1] : QPC_ROW_SLOTS); ++slot) {
+      qpc_neutralise(s, slot);
+      s->row_penalty[slot] = (uint8_t)qpc_row_penalty[o];
+    }
+  }
+}
+
+void qpc_function(set_rows)(qpc_solver* s, int output, int index, int count, const float* normals,
+                            const float* offsets) {
+  const int slot = qpc_first_slot[output] + index * qpc_stage_stride[output];
+  s->row_count[output][index] = count;
+  if (count < 0 || count > qpc_most_rows[output]) return; /* solve reports it */
+  if (qpc_row_stride[output] == 1) {
+    for (int i = 0; i < count; ++i) {
+      for (int c = 0; c < QPC_COMPONENTS; ++c) s->row_normal[c][slot + i] = normals[QPC_COMPONENTS * i + c];
+    }
+    for (int i = 0; i < count; ++i) s->row_offset[slot + i] = offsets[i];
+    return;
+  }
+  for (int i = 0; i < count; ++i) {
+    const int at = slot + i * qpc_row_stride[output];
+    for (int c = 0; c < QPC_COMPONENTS; ++c) s->row_normal[c][at] = normals[QPC_COMPONENTS * i + c];
+    s->row_offset[at] = offsets[i];
+  }
+}
+
+static int qpc_quadratics_valid(const qpc_solver* s) {
+  if (s->quadratic_count < 0 || s->quadratic_count > QPC_MAX_QUADRATIC) return 0;
+  for (int i = 0; i < s->quadratic_count; ++i) {
+    if (s->quadratic_output[i] < 0 || s->quadratic_output[i] >= QPC_OUTPUTS || s->quadratic_index[i] < 0 ||
+        s->quadratic_index[i] >= QPC_HORIZON || !(s->quadratic_weight[i] > 0.0)) {
+      return 0;
+    }
+    double sum = s->quadratic_offset[i] * 0.0 + 1.0 / s->quadratic_weight[i];
+    for (int c = 0; c < QPC_COMPONENTS; ++c) sum += s->quadratic_normal[i][c] * 0.0;
+    if (!qpc_is_finite(sum)) return 0;
+  }
+  return 1;
+}
+
+/* The optimum without rows, and the size of its outputs. */
+static double qpc_free_response(const qpc_tables* t, qpc_solver* s) {
+  double q[QPC_HORIZON][QPC_BLOCK_STATES][QPC_LANES], r[QPC_HORIZON][QPC_BLOCK_INPUTS][QPC_LANES];
+  double z0[QPC_SWEEP_STATES][QPC_LANES], feedforward[QPC_HORIZON][QPC_BLOCK_INPUTS][QPC_LANES];
+  qpc_gather(s, q, r, z0);
+  qpc_backward(t, (const double(*)[QPC_BLOCK_STATES][QPC_LANES])q,
+               QPC_INPUT_LINEAR ? (const double(*)[QPC_BLOCK_INPUTS][QPC_LANES])r : 0, feedforward);
+  qpc_forward(t, (const double(*)[QPC_LANES])z0, (const double(*)[QPC_BLOCK_INPUTS][QPC_LANES])feedforward,
+              s->free_input, s->free_output);
+  qpc_vector largest = QPC_BROADCAST(0.0);
+  for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; i += QPC_WIDTH) {
+    const qpc_vector y = QPC_LOAD(&s->free_output[i]);
+    largest = qpc_select((qpc_mask)(y > largest), y, largest);
+    largest = qpc_select((qpc_mask)(-y > largest), -y, largest);
+  }
+  double size = 0.0;
+  for (int i = 0; i < QPC_WIDTH; ++i) size = largest[i] > size ? largest[i] : size;
+  return size;
+}
+
+/* Inputs, multipliers and slacks from the working set. */
+static void qpc_recover(const qpc_tables* t, qpc_solver* s) {
+  for (int b = 0; b < QPC_BLOCKS; ++b) {
+    for (int j = 0; j < QPC_RESPONSE_PADDED; j += QPC_WIDTH) {
+      qpc_vector sum = QPC_LOAD(&s->free_input[b][j]);
+      for (int i = 0; i < s->active_count; ++i) {
+        for (int c = 0; c < QPC_COMPONENTS; ++c) {
+          if (QPC_ALIGNED ? c != b : s->point[c][i] / QPC_POINTS_PADDED != b) continue;
+          const double force = s->lambda[i] * s->normal[c][i];
+          sum += QPC_LOAD(&t->response[qpc_class_of_block[b]][s->point[c][i] % QPC_POINTS_PADDED][j]) * force;
+        }
+      }
+      QPC_STORE(&s->free_input[b][j], sum);
+    }
+  }
+  for (int i = 0; i < s->active_count; ++i) {
+    s->multiplier[i] = s->lambda[i];
+    s->slack[i] = s->flexibility[i] > 0.0 && !QPC_IS_QUADRATIC(s->active_id[i])
+                      ? (s->lambda[i] - s->row_linear[i]) * s->flexibility[i]
+                      : 0.0;
+  }
+  qpc_order_inputs(s, s->u);
+}
+
+static void qpc_clear_result(qpc_solver* s) {
+  qpc_clear(&s->u[0][0], QPC_HORIZON * QPC_INPUTS);
+  qpc_clear(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES);
+  s->active_count = 0;
+}
+
+static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
+  int status = QPC_CAP;
+  if (s->wanted_method == QPC_ACTIVE_SET) {
+    status = qpc_active_set(t, s, tolerance);
+    for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+    if (status == QPC_SOLVED) qpc_recover(t, s);
+  }
+  if (status == QPC_CAP) {
+    s->method = QPC_INTERIOR_POINT;
+    status = qpc_interior_point(t, s, tolerance);
+  }
+  return status;
+}
+
+static int qpc_check_and_run(const qpc_tables* t, qpc_solver* s) {
+  if (!qpc_group_rows(s) || !qpc_quadratics_valid(s)) return QPC_BAD_DATA;
+  const int rows = qpc_look_at_rows(s);
+  const double size = qpc_free_response(t, s);
+  if (rows == QPC_ROWS_BAD || !qpc_all_finite(s->free_output, QPC_BLOCKS * QPC_POINTS_PADDED)) return QPC_BAD_DATA;
+  s->scaled = rows == QPC_ROWS_UNUSUAL;
+  if (s->scaled) qpc_scale_rows(s, 0);
+  const int status = qpc_run(t, s, 1e-11 * (1.0 + size));
+  if (s->scaled) {
+    for (int i = 0; i < s->active_count; ++i) {
+      s->multiplier[i] *= qpc_scale_of(s, s->active_id[i]);
+      s->slack[i] /= qpc_scale_of(s, s->active_id[i]);
+    }
+    qpc_scale_rows(s, 1);
+  }
+  if (status != QPC_SOLVED) return status;
+  qpc_roll_out(t, s);
+  return qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS) &&
+                 qpc_all_finite(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES)
+             ? QPC_SOLVED
+             : QPC_BAD_DATA;
+}
+
+int qpc_function(solve)(const qpc_tables* t, qpc_solver* s) {
+  s->iterations = 0;
+  s->method = QPC_ACTIVE_SET;
+  s->active_count = 0;
+  s->status = qpc_check_and_run(t, s);
+  if (s->status != QPC_SOLVED) qpc_clear_result(s);
+  return s->status;
+}
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif

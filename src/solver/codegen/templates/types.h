@@ -1,0 +1,129 @@
+/* What solve and setup report. */
+enum {
+  QPC_SOLVED = 0,
+  QPC_BAD_DATA = 1,      /* not finite, or a penalty, count or index out of range: the result is zero */
+  QPC_INFEASIBLE = 2,    /* the hard rows and bounds contradict each other */
+  QPC_CAP = 3,           /* the cap on changes or on active rows was met, and no other method answered */
+  QPC_NOT_CONVEX = 4,    /* setup: the Hessian in the inputs is not positive definite */
+  QPC_WRONG_VERSION = 5  /* setup: the caller was compiled with the header of another description */
+};
+
+/* Which method answered. */
+enum { QPC_ACTIVE_SET = 0, QPC_INTERIOR_POINT = 1 };
+
+/* Everything that does not change between solves. Filled by setup, read-only afterwards: any number of solvers on
+   any number of threads may share it. The innermost index of the stage data is the block (a "lane"). */
+typedef struct {
+  double a[QPC_BLOCK_STATES][QPC_BLOCK_STATES][QPC_LANES];
+  double b[QPC_BLOCK_STATES][QPC_BLOCK_INPUTS][QPC_LANES];
+  double stage_cost[QPC_BLOCK_STATES][QPC_BLOCK_STATES][QPC_LANES];
+  double terminal_cost[QPC_BLOCK_STATES][QPC_BLOCK_STATES][QPC_LANES];
+  double input_cost[QPC_BLOCK_INPUTS][QPC_BLOCK_INPUTS][QPC_LANES];
+  double rate_cost[QPC_BLOCK_INPUTS][QPC_BLOCK_INPUTS][QPC_LANES];
+  double c[QPC_CHANNELS][QPC_BLOCK_STATES][QPC_LANES];
+  double d[QPC_CHANNELS][QPC_BLOCK_INPUTS][QPC_LANES];
+  /* Riccati recursion of the problem without rows, in z = [x; previous u if there is a rate cost]:
+     u = -gain z - inverse l, z+ = closed_loop z - [B; I] inverse l. */
+  double closed_loop[QPC_HORIZON][QPC_SWEEP_STATES][QPC_SWEEP_STATES][QPC_LANES];
+  double gain[QPC_HORIZON][QPC_BLOCK_INPUTS][QPC_SWEEP_STATES][QPC_LANES];
+  double inverse[QPC_HORIZON][QPC_BLOCK_INPUTS][QPC_BLOCK_INPUTS][QPC_LANES];
+  /* Per class of blocks: gram = G H^-1 G' between points (channel * QPC_HORIZON + stage index), and
+     response = H^-1 G', a column of inputs per point. */
+  double gram[QPC_CLASSES][QPC_POINTS][QPC_POINTS_PADDED];
+  double response[QPC_CLASSES][QPC_POINTS][QPC_RESPONSE_PADDED];
+  double lower[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double upper[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double penalty_linear[QPC_PENALTIES + 1]; /* [0]: hard */
+  double compliance[QPC_PENALTIES + 1];     /* 1 / quadratic weight; hard: 0 */
+} qpc_tables;
+
+/* One QP: data, result and work space. Fill the data after qpc_init; what is not touched stays as it was. */
+typedef struct {
+  /* Data. */
+  double x0[QPC_STATES];
+  double u_previous[QPC_INPUTS];                     /* u_{-1}; read only if there is a rate cost */
+  double state_linear[QPC_HORIZON][QPC_STATES];      /* q_k of stages 1..N */
+  double input_linear[QPC_HORIZON][QPC_INPUTS];      /* r_k of stages 0..N-1; read only if described */
+  /* Rows n . y >= offset, by slot: see qpc_add_row and QPC_SLOT. */
+  int32_t row_count[QPC_OUTPUTS][QPC_HORIZON];       /* rows of an output at a stage index */
+  double row_normal[QPC_COMPONENTS][QPC_ROW_SLOTS];
+  double row_offset[QPC_ROW_SLOTS];
+  uint8_t row_penalty[QPC_ROW_SLOTS];
+  /* Bounds of the outputs, by block and point; setup's values after qpc_init. */
+  double lower[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double upper[QPC_BLOCKS * QPC_POINTS_PADDED];
+  /* Terms 1/2 weight (n . y - offset)^2. */
+  int32_t quadratic_count;
+  int32_t quadratic_output[QPC_MAX_QUADRATIC + 1];
+  int32_t quadratic_index[QPC_MAX_QUADRATIC + 1];    /* stage index */
+  double quadratic_normal[QPC_MAX_QUADRATIC + 1][QPC_COMPONENTS];
+  double quadratic_offset[QPC_MAX_QUADRATIC + 1];
+  double quadratic_weight[QPC_MAX_QUADRATIC + 1];
+  /* Guess: identities and multipliers of the rows thought active; 0 of them: a cold start. */
+  int32_t warm_count;
+  int32_t warm_id[QPC_MAX_ACTIVE];
+  double warm_multiplier[QPC_MAX_ACTIVE];
+
+  int32_t wanted_method;                             /* QPC_ACTIVE_SET, which falls back, or QPC_INTERIOR_POINT */
+  double tolerance;                                  /* of the interior-point method: duality gap in the cost */
+
+  /* Result. */
+  double u[QPC_HORIZON][QPC_INPUTS];
+  double x[QPC_HORIZON + 1][QPC_STATES];
+  int32_t active_count;                              /* all other rows and bounds have multiplier 0 */
+  int32_t active_id[QPC_MAX_ACTIVE];
+  double multiplier[QPC_MAX_ACTIVE];
+  double slack[QPC_MAX_ACTIVE];
+  int32_t status;
+  int32_t method;
+  int32_t iterations;                                /* changes of the active set, or Newton steps */
+
+  /* Work space. */
+  int32_t group_count;
+  int32_t group_slot[QPC_GROUPS];
+  int32_t group_rows[QPC_GROUPS];
+  int32_t group_output[QPC_GROUPS];
+  int32_t group_index[QPC_GROUPS];
+  int32_t scaled;                                    /* some rows are scaled for this solve, by row_scale */
+  double row_scale[QPC_ROW_SLOTS];
+  double free_output[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double output[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double free_input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
+  int32_t point[QPC_COMPONENTS][QPC_ACTIVE_PADDED];  /* flat place in `output` of each component */
+  double normal[QPC_COMPONENTS][QPC_ACTIVE_PADDED];
+  double target[QPC_ACTIVE_PADDED];                  /* n . y + flexibility * multiplier = target */
+  double flexibility[QPC_ACTIVE_PADDED];             /* 0, or the compliance of a row in its quadratic part */
+  double row_compliance[QPC_ACTIVE_PADDED];
+  double row_linear[QPC_ACTIVE_PADDED];              /* where the quadratic part begins; kUnbounded: hard */
+  double least[QPC_ACTIVE_PADDED];                   /* the multiplier's range in the present part */
+  double most[QPC_ACTIVE_PADDED];
+  double lambda[QPC_ACTIVE_PADDED];
+  double offset[QPC_ACTIVE_PADDED];
+  double direction[QPC_ACTIVE_PADDED];
+  double column[QPC_ACTIVE_PADDED];
+  double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED];
+  /* Interior point: the rows and bounds that it was given, and their variables. */
+  int32_t ip_count;
+  int32_t ip_id[QPC_ENTRIES];
+  int32_t ip_place[QPC_COMPONENTS][QPC_ENTRIES];
+  int32_t ip_group[2][QPC_ENTRIES];                  /* output and stage index */
+  double ip_normal[QPC_COMPONENTS][QPC_ENTRIES];
+  double ip_offset[QPC_ENTRIES];
+  double ip_quadratic[QPC_ENTRIES];
+  double ip_variable[4][QPC_ENTRIES];                /* multiplier, room, slack (0: hard), reserve (hard: 1) */
+  double ip_step[4][QPC_ENTRIES];
+  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier slack inverse_reserve) */
+  double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
+  double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
+  double ip_pull[QPC_ENTRIES];                       /* force along the normal */
+  double ip_value[QPC_ENTRIES];                      /* n . y of the outputs' step */
+  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room, 0 after the first full step */
+  double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
+  double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
+  double ip_input[QPC_HORIZON][QPC_INPUTS];          /* step of the inputs */
+  double ip_gain[QPC_HORIZON][QPC_GAINS];
+  double ip_lower[QPC_HORIZON][QPC_LOWERS];
+  double ip_pivot[QPC_HORIZON][QPC_INPUTS];
+  double ip_constant[QPC_HORIZON][QPC_INPUTS];
+} qpc_solver;

@@ -1,0 +1,145 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/solver/generated_solver.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "planner_qp.h"
+#include "swarm_planner/solver/instruction_set.hpp"
+
+namespace swarm_planner {
+namespace {
+
+static_assert(PLANNER_QP_HORIZON == kHorizon, "the generated solver has another horizon");
+static_assert(PLANNER_QP_OUTPUTS == kOutputCount, "the generated solver has other outputs");
+static_assert(PLANNER_QP_OUTPUT_THRUST_ACCELERATION == static_cast<int>(Output::kThrustAcceleration) &&
+                  PLANNER_QP_OUTPUT_CONTROL_POINT_2 == static_cast<int>(Output::kControlPoint2) &&
+                  PLANNER_QP_OUTPUT_VELOCITY_CONTROL_POINT == static_cast<int>(Output::kVelocityControlPoint),
+              "the outputs are in another order");
+static_assert(PLANNER_QP_MAX_ROWS_POSITION == kMaxBodyRows && PLANNER_QP_MAX_ROWS_VELOCITY == kMaxLimitRows &&
+                  PLANNER_QP_MAX_QUADRATIC == kMaxCurvatures,
+              "the generated solver has other capacities");
+
+struct Functions {
+  int (*setup)(planner_qp_tables*, const planner_qp_parameters*, uint64_t);
+  void (*init)(planner_qp_solver*, const planner_qp_tables*);
+  int (*solve)(const planner_qp_tables*, planner_qp_solver*);
+};
+
+const Functions& functions() {
+  static const Functions kFunctions = [] {
+#if defined(__x86_64__)
+    switch (bestInstructionSet()) {
+      case InstructionSet::kAvx512:
+        return Functions{planner_qp_setup_avx512, planner_qp_init_avx512, planner_qp_solve_avx512};
+      case InstructionSet::kAvx2:
+        return Functions{planner_qp_setup_avx2, planner_qp_init_avx2, planner_qp_solve_avx2};
+      case InstructionSet::kBaseline:
+        break;
+    }
+#endif
+    return Functions{planner_qp_setup_baseline, planner_qp_init_baseline, planner_qp_solve_baseline};
+  }();
+  return kFunctions;
+}
+
+void copy(const Vector3& from, double* to) { Eigen::Map<Vector3>(to, 3) = from; }
+
+}  // namespace
+
+struct GeneratedTables::Entry {
+  QpModel model;
+  planner_qp_tables tables;
+};
+
+GeneratedTables::GeneratedTables(const std::vector<QpModel>& models) {
+  for (const QpModel& model : models) {
+    planner_qp_parameters parameters{};
+    parameters.dt = model.dt;
+    parameters.along = model.along_weight;
+    parameters.across = model.across_weight;
+    parameters.velocity = model.velocity_weight;
+    parameters.jerk = model.jerk_weight;
+    parameters.drag = model.drag_over_mass;
+    parameters.slack_linear = model.slack_linear;
+    parameters.slack_quadratic = model.slack_quadratic;
+    auto entry = std::make_unique<Entry>();
+    entry->model = model;
+    if (functions().setup(&entry->tables, &parameters, PLANNER_QP_HASH) != PLANNER_QP_SOLVED) {
+      throw std::invalid_argument("the weights do not make a strictly convex problem");
+    }
+    entries_.push_back(std::move(entry));
+  }
+}
+
+GeneratedTables::~GeneratedTables() = default;
+
+const GeneratedTables::Entry* GeneratedTables::find(const QpModel& model) const {
+  for (const std::unique_ptr<Entry>& entry : entries_) {
+    if (entry->model == model) return entry.get();
+  }
+  return nullptr;
+}
+
+struct GeneratedSolver::Memory {
+  planner_qp_solver solver;
+  const GeneratedTables::Entry* initialised_for = nullptr;
+};
+
+GeneratedSolver::GeneratedSolver(std::shared_ptr<const GeneratedTables> tables)
+    : tables_(std::move(tables)), memory_(new Memory) {}
+
+GeneratedSolver::~GeneratedSolver() = default;
+
+QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
+  const GeneratedTables::Entry* entry = tables_->find(qp.model);
+  planner_qp_solver& s = memory_->solver;
+  solution.status = QpStatus::kNotFinite;
+  solution.iterations = 0;
+  solution.max_slack = 0.0;
+  if (entry == nullptr) return solution.status;
+  if (memory_->initialised_for != entry) functions().init(&s, &entry->tables);
+  memory_->initialised_for = entry;
+  load(qp);
+  const int status = functions().solve(&entry->tables, &s);
+  solution.iterations = s.iterations;
+  solution.fell_back = s.method != PLANNER_QP_ACTIVE_SET;
+  if (status == PLANNER_QP_SOLVED) solution.status = QpStatus::kSolved;
+  if (status == PLANNER_QP_CAP) solution.status = QpStatus::kIterationLimit;
+  for (std::size_t k = 0; k < kHorizon; ++k) solution.jerks[k] = qp.axes * Eigen::Map<const Vector3>(s.u[k]);
+  for (int i = 0; i < s.active_count; ++i) solution.max_slack = std::max(solution.max_slack, s.slack[i]);
+  return solution.status;
+}
+
+void GeneratedSolver::load(const Qp& qp) {
+  planner_qp_solver& s = memory_->solver;
+  const Matrix3 to_axes = qp.axes.transpose();
+  copy(to_axes * qp.start.p, s.x0);
+  copy(to_axes * qp.start.v, s.x0 + 3);
+  copy(to_axes * qp.start.a, s.x0 + 6);
+  planner_qp_clear_rows(&s);
+  s.warm_count = 0;
+  for (std::size_t k = 1; k <= kHorizon; ++k) {
+    const QpStage& stage = qp.stages[k];
+    copy(to_axes * stage.position_gradient, s.state_linear[k - 1]);
+    copy(to_axes * stage.velocity_gradient, s.state_linear[k - 1] + 3);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
+      const QpRow& row = stage.rows[i];
+      const Vector3 normal = to_axes * row.n;
+      planner_qp_add_row(&s, static_cast<int>(row.output), static_cast<int>(k), normal.data(), row.d,
+                         PLANNER_QP_PENALTY_SLACK);
+    }
+  }
+  s.quadratic_count = qp.curvature_count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(qp.curvature_count); ++i) {
+    const QpCurvature& term = qp.curvatures[i];
+    s.quadratic_output[i] = PLANNER_QP_OUTPUT_POSITION;
+    s.quadratic_index[i] = term.stage - PLANNER_QP_FIRST_STAGE_POSITION;
+    copy(to_axes * term.n, s.quadratic_normal[i]);
+    s.quadratic_offset[i] = 0.0;
+    s.quadratic_weight[i] = term.weight;
+  }
+}
+
+}  // namespace swarm_planner

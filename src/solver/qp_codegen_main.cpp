@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+// qp_codegen SPEC.yaml OUTPUT_DIR: writes NAME.h and NAME.c, a solver for the QP structure that SPEC.yaml describes.
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "swarm_planner/solver/codegen/generator.hpp"
+
+namespace {
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: qp_codegen SPEC.yaml OUTPUT_DIR\n";
+    return 2;
+  }
+  try {
+    const auto description = swarm_planner::codegen::loadDescription(argv[1]);
+    const auto code = swarm_planner::codegen::generate(description);
+    const std::string stem = std::string(argv[2]) + "/" + description.name;
+    write(stem + ".h", code.header);
+    write(stem + ".c", code.source);
+  } catch (const std::exception& error) {
+    std::cerr << argv[1] << ":\n" << error.what() << "\n";
+    return EXIT_FAILURE;
+  }
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,170 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "solver/generated_program.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <stdexcept>
+
+#include "swarm_planner/solver/codegen/generator.hpp"
+
+namespace swarm_planner {
+namespace codegen {
+namespace {
+
+/// What a user would write around the solver; NAME and PREFIX are put in its place. Reads problems, writes answers.
+const char* const kDriver = R"(#include <stdio.h>
+#include <stdlib.h>
+#include "NAME.h"
+static NAME_tables tables;
+static NAME_solver solver;
+static double number(void) {
+  double value;
+  if (fread(&value, sizeof value, 1, stdin) != 1) exit(3);
+  return value;
+}
+static void answer(void) {
+  double head[3] = {solver.status, solver.method, solver.iterations};
+  fwrite(head, sizeof head, 1, stdout);
+  fwrite(solver.u, sizeof solver.u, 1, stdout);
+  fwrite(solver.x, sizeof solver.x, 1, stdout);
+}
+int main(void) {
+  NAME_parameters parameters;
+  NAME_default_parameters_baseline(&parameters);
+  if (NAME_setup_baseline(&tables, &parameters, PREFIX_HASH + 1) != PREFIX_WRONG_VERSION) return 4;
+  if (NAME_setup_baseline(&tables, &parameters, PREFIX_HASH) != PREFIX_SOLVED) return 5;
+  NAME_init_baseline(&solver, &tables);
+  solver.tolerance = 1e-9;
+  for (int count = (int)number(); count > 0; --count) {
+    for (int i = 0; i < PREFIX_STATES; ++i) solver.x0[i] = number();
+    for (int i = 0; i < PREFIX_INPUTS; ++i) solver.u_previous[i] = number();
+    for (int i = 0; i < PREFIX_HORIZON * PREFIX_STATES; ++i) (&solver.state_linear[0][0])[i] = number();
+    for (int i = 0; i < PREFIX_HORIZON * PREFIX_INPUTS; ++i) (&solver.input_linear[0][0])[i] = number();
+    NAME_clear_rows(&solver);
+    for (int rows = (int)number(); rows > 0; --rows) {
+      double normal[PREFIX_COMPONENTS];
+      const int output = (int)number(), stage = (int)number(), penalty = (int)number();
+      for (int c = 0; c < PREFIX_COMPONENTS; ++c) normal[c] = number();
+      if (NAME_add_row(&solver, output, stage, normal, number(), penalty) < 0) return 6;
+    }
+    solver.wanted_method = PREFIX_ACTIVE_SET;
+    solver.warm_count = 0;
+    NAME_solve_baseline(&tables, &solver);
+    answer();
+    solver.warm_count = solver.active_count;
+    for (int i = 0; i < solver.active_count; ++i) {
+      solver.warm_id[i] = solver.active_id[i];
+      solver.warm_multiplier[i] = solver.multiplier[i];
+    }
+    NAME_solve_baseline(&tables, &solver);
+    answer();
+    solver.wanted_method = PREFIX_INTERIOR_POINT;
+    NAME_solve_baseline(&tables, &solver);
+    answer();
+  }
+  return 0;
+}
+)";
+
+std::string named(std::string text, const std::string& name) {
+  std::string upper = name;
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const std::pair<std::string, std::string> replacements[] = {{"NAME", name}, {"PREFIX", upper}};
+  for (const auto& replacement : replacements) {
+    for (std::size_t at = text.find(replacement.first); at != std::string::npos;
+         at = text.find(replacement.first, at + replacement.second.size())) {
+      text.replace(at, replacement.first.size(), replacement.second);
+    }
+  }
+  return text;
+}
+
+void writeFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+}
+
+void run(const std::string& command) {
+  if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
+}
+
+void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
+
+}  // namespace
+
+GeneratedProgram::GeneratedProgram(const Description& description, const std::string& compiler_flags)
+    : description_(description) {
+  char folder[] = "/tmp/qp_codegen_test_XXXXXX";
+  if (mkdtemp(folder) == nullptr) throw std::runtime_error("no temporary folder");
+  folder_ = folder;
+  const GeneratedCode code = generate(description);
+  writeFile(folder_ + "/" + description.name + ".h", code.header);
+  writeFile(folder_ + "/" + description.name + ".c", code.source);
+  writeFile(folder_ + "/driver.c", named(kDriver, description.name));
+  const std::string compile = "cd " + folder_ + " && cc -std=c99 -Wall -Wextra -Werror " + compiler_flags + " -c ";
+  run(compile + description.name + ".c -o solver.o");
+  run(compile + "driver.c -o driver.o");
+  run("cd " + folder_ + " && cc " + compiler_flags + " driver.o solver.o -o driver");
+}
+
+GeneratedProgram::~GeneratedProgram() {
+  for (const std::string& file : {description_.name + ".h", description_.name + ".c", std::string("driver.c"),
+                                  std::string("solver.o"), std::string("driver.o"), std::string("driver"),
+                                  std::string("in"), std::string("out"), std::string("symbols")}) {
+    std::remove((folder_ + "/" + file).c_str());
+  }
+  rmdir(folder_.c_str());
+}
+
+std::vector<std::vector<SolverAnswer>> GeneratedProgram::solve(const std::vector<ProblemData>& problems) const {
+  std::vector<double> in{static_cast<double>(problems.size())};
+  for (const ProblemData& p : problems) {
+    for (const auto* part : {&p.x0, &p.u_previous, &p.state_linear, &p.input_linear}) append(in, *part);
+    in.push_back(static_cast<double>(p.rows.size()));
+    for (const ProblemData::Row& row : p.rows) {
+      append(in, {static_cast<double>(row.output), static_cast<double>(row.stage), static_cast<double>(row.penalty)});
+      append(in, row.normal);
+      in.push_back(row.offset);
+    }
+  }
+  std::ofstream(folder_ + "/in", std::ios::binary)
+      .write(reinterpret_cast<const char*>(in.data()), static_cast<std::streamsize>(in.size() * sizeof(double)));
+  run("cd " + folder_ + " && ./driver < in > out");
+
+  const auto inputs = static_cast<std::size_t>(description_.horizon * description_.inputs);
+  const auto states = static_cast<std::size_t>((description_.horizon + 1) * description_.states);
+  std::ifstream out(folder_ + "/out", std::ios::binary);
+  std::vector<std::vector<SolverAnswer>> answers(problems.size());
+  for (auto& of_problem : answers) {
+    for (int i = 0; i < 3; ++i) {
+      std::vector<double> values(3 + inputs + states);
+      out.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(double)));
+      if (!out) throw std::runtime_error("the program wrote too little");
+      SolverAnswer answer;
+      answer.status = static_cast<int>(values[0]);
+      answer.method = static_cast<int>(values[1]);
+      answer.iterations = static_cast<int>(values[2]);
+      const auto u = values.begin() + 3, x = u + static_cast<std::ptrdiff_t>(inputs);
+      answer.u.assign(u, x);
+      answer.x.assign(x, values.end());
+      of_problem.push_back(answer);
+    }
+  }
+  return answers;
+}
+
+std::string GeneratedProgram::undefinedSymbols() const {
+  run("cd " + folder_ + " && nm -u solver.o > symbols");
+  std::ifstream file(folder_ + "/symbols");
+  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+}
+
+}  // namespace codegen
+}  // namespace swarm_planner

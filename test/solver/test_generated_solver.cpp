@@ -1,0 +1,112 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// The solver that flies: wrong answers here are wrong plans.
+#include "swarm_planner/solver/generated_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "known_optimum.hpp"
+#include "reference/interior_point.hpp"
+
+namespace swarm_planner {
+namespace {
+
+/// Solves with tables made for the QP's own model.
+QpStatus solveGenerated(const Qp& qp, QpSolution& solution) {
+  GeneratedSolver solver(std::make_shared<GeneratedTables>(std::vector<QpModel>{qp.model}));
+  return solver.solve(qp, solution);
+}
+
+class GeneratedSolverTest : public ::testing::TestWithParam<RowMix> {};
+
+TEST_P(GeneratedSolverTest, FindsTheKnownOptimum) {
+  std::mt19937_64 random(11);
+  auto solution = std::make_unique<QpSolution>();
+  for (int trial = 0; trial < 100; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    ASSERT_EQ(solveGenerated(known->qp, *solution), QpStatus::kSolved) << "trial " << trial;
+    const double expected = objective(known->qp, known->solution.jerks);
+    EXPECT_NEAR(objective(known->qp, solution->jerks), expected, 1e-8 * (1.0 + std::abs(expected))) << "trial " << trial;
+  }
+}
+
+TEST_P(GeneratedSolverTest, AgreesWithTheReference) {
+  std::mt19937_64 random(12);
+  InteriorPointSolver reference;
+  auto expected = std::make_unique<QpSolution>();
+  auto solution = std::make_unique<QpSolution>();
+  for (int trial = 0; trial < 30; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    // Somewhere else than at the optimum that was constructed.
+    known->qp.stages[7].position_gradient += Vector3(3.0, -2.0, 1.0);
+    ASSERT_EQ(reference.solve(known->qp, *expected), QpStatus::kSolved);
+    ASSERT_EQ(solveGenerated(known->qp, *solution), QpStatus::kSolved);
+    const double least = objective(known->qp, expected->jerks);
+    EXPECT_NEAR(objective(known->qp, solution->jerks), least, 1e-7 * (1.0 + std::abs(least))) << "trial " << trial;
+    EXPECT_NEAR(solution->max_slack, std::max(0.0, expected->max_slack), 1e-4) << "trial " << trial;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RowMixes, GeneratedSolverTest,
+                         ::testing::Values(RowMix{0, 0, 0}, RowMix{0, 0, 5}, RowMix{1, 0, 5}, RowMix{0, 1, 5},
+                                           RowMix{2, 1, 10}, RowMix{1, 1, 25}));
+
+// What one solve leaves behind must not colour the next.
+TEST(GeneratedSolver, SolvesOneAfterTheOtherAsIfEachWereTheFirst) {
+  std::mt19937_64 random(13);
+  const auto first = std::make_unique<KnownOptimum>(makeKnownOptimum({2, 1, 10}, random));
+  const auto second = std::make_unique<KnownOptimum>(makeKnownOptimum({1, 0, 3}, random));
+  GeneratedSolver solver(
+      std::make_shared<GeneratedTables>(std::vector<QpModel>{first->qp.model, second->qp.model}));
+  auto fresh = std::make_unique<QpSolution>();
+  auto used = std::make_unique<QpSolution>();
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    for (const Qp* qp : {&first->qp, &second->qp}) {
+      solver.solve(*qp, *used);
+      solveGenerated(*qp, *fresh);
+      EXPECT_EQ(used->jerks, fresh->jerks);
+      EXPECT_EQ(used->iterations, fresh->iterations);
+    }
+  }
+}
+
+TEST(GeneratedSolver, ReportsDataThatAreNotFinite) {
+  std::mt19937_64 random(14);
+  const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum({1, 1, 3}, random));
+  auto solution = std::make_unique<QpSolution>();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    auto qp = std::make_unique<Qp>(known->qp);
+    qp->stages[4].rows[2].n.x() = bad;
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    *qp = known->qp;
+    qp->start.v.y() = bad;
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    *qp = known->qp;
+    qp->stages[20].position_gradient.z() = bad;
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    for (const Vector3& jerk : solution->jerks) EXPECT_TRUE(jerk.allFinite());
+  }
+}
+
+TEST(GeneratedSolver, RefusesAModelThatItHasNoTablesOf) {
+  std::mt19937_64 random(15);
+  const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum({0, 0, 0}, random));
+  GeneratedSolver solver(std::make_shared<GeneratedTables>(std::vector<QpModel>{known->qp.model}));
+  known->qp.model.dt *= 2.0;
+  auto solution = std::make_unique<QpSolution>();
+  EXPECT_NE(solver.solve(known->qp, *solution), QpStatus::kSolved);
+}
+
+TEST(GeneratedTables, RefuseWeightsWithoutALeastCost) {
+  QpModel model;
+  model.dt = 0.3;
+  model.jerk_weight = -1.0;
+  model.slack_linear = model.slack_quadratic = 1.0;
+  EXPECT_THROW(GeneratedTables({model}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace swarm_planner
