@@ -38,6 +38,7 @@ build_packages=(
 )
 run_packages=(python3-rosbag rosbash rosout)
 test_packages=(
+  libbenchmark-dev
   python3-diagnostic-msgs
   python3-geometry-msgs
   python3-nav-msgs

@@ -78,9 +78,7 @@ double velocityWeight(const Parameters& parameters) {
   return 2.0 * parameters.time.sampling_time * weights.eta * weights.velocity_time * weights.velocity_time;
 }
 
-double jerkWeight(const Parameters& parameters) {
-  return 2.0 * parameters.time.sampling_time * parameters.cost.zeta;
-}
+double jerkWeight(const Parameters& parameters) { return 2.0 * parameters.time.sampling_time * parameters.cost.zeta; }
 
 double planCost(const UavProblem& problem, const Trajectory& plan) {
   StageFrames frames;

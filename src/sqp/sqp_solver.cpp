@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-
 #include "swarm_planner/sqp/linearisation.hpp"
 
 namespace swarm_planner {

@@ -34,8 +34,7 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, do
 
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
-    : parameters_(parameters),
-      sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
+    : parameters_(parameters), sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
   problem_.bounds = FlightBounds(parameters, workspace ? &*workspace : nullptr);

@@ -21,8 +21,7 @@ long long entries(const OutputGains& gains, const Vector3& n) {
 
 class KktCount {
  public:
-  explicit KktCount(const Mission& mission)
-      : gains_(makeQpModels(mission.parameters).straight.outputs()) {}
+  explicit KktCount(const Mission& mission) : gains_(makeQpModels(mission.parameters).straight.outputs()) {}
 
   void addRow(Output output, const Vector3& n) {
     // The row and its slack, the slack's sign, both mirrored; the slack's penalty.

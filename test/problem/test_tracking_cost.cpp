@@ -79,7 +79,7 @@ TEST_P(TrackingCostOnPath, HasTheExactHessianWithoutObstacles) {
     const Vector3 dp = moved.p - x.p;
     const Vector3 dv = moved.v - x.v;
     const double model = cost.value + cost.position_gradient.dot(dp) + 0.5 * dp.dot(cost.position_hessian * dp) +
-                         cost.velocity_gradient.dot(dv) + 0.5 * velocityWeight(problem) * dv.squaredNorm();
+                         cost.velocity_gradient.dot(dv) + 0.5 * velocityWeight(*problem.parameters) * dv.squaredNorm();
     EXPECT_NEAR(model, stageCost(problem, stage, frame, moved).value, 1e-11 * (1.0 + cost.value + model));
   }
 }
@@ -141,8 +141,8 @@ TEST(TrackingCost, WeighsVelocityAndJerkAsTheQpDoes) {
   FlightProblem flight(kLineAlongX, 3.0, {});
   randomiseWeights(random, flight.parameters.cost);
   const CostParameters& weights = flight.parameters.cost;
-  EXPECT_DOUBLE_EQ(jerkWeight(flight.problem), 2.0 * flight.problem.dt * weights.zeta);
-  EXPECT_DOUBLE_EQ(velocityWeight(flight.problem),
+  EXPECT_DOUBLE_EQ(jerkWeight(flight.parameters), 2.0 * flight.problem.dt * weights.zeta);
+  EXPECT_DOUBLE_EQ(velocityWeight(flight.parameters),
                    2.0 * flight.problem.dt * weights.eta * weights.velocity_time * weights.velocity_time);
 }
 

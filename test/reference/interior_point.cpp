@@ -138,7 +138,8 @@ bool InteriorPointSolver::converged(const Qp& qp) {
     residual = std::max({residual, std::abs(r.r_primal), std::abs(r.r_slack) / qp.model.slack_linear});
   });
   mean_complementarity_ = complementarity / (2.0 * row_total_);
-  return mean_complementarity_ <= settings_.gap_tolerance * qp.model.slack_linear && residual <= settings_.residual_tolerance;
+  return mean_complementarity_ <= settings_.gap_tolerance * qp.model.slack_linear &&
+         residual <= settings_.residual_tolerance;
 }
 
 void InteriorPointSolver::factorise(const Qp& qp) {

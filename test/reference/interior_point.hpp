@@ -6,10 +6,10 @@
 
 namespace swarm_planner {
 
-/// The reference that generated solvers are compared with: a primal-dual interior-point method (Mehrotra's predictor and corrector) with a Riccati recursion over the
-/// stages. A row's slack and both of its complementarity pairs are eliminated, so that a row costs one
-/// rank-one term in its stage's Hessian. Where no row is violated at the unconstrained optimum, that is the
-/// answer after one recursion.
+/// The reference that generated solvers are compared with: a primal-dual interior-point method (Mehrotra's predictor
+/// and corrector) with a Riccati recursion over the stages. A row's slack and both of its complementarity pairs are
+/// eliminated, so that a row costs one rank-one term in its stage's Hessian. Where no row is violated at the
+/// unconstrained optimum, that is the answer after one recursion.
 class InteriorPointSolver final : public QpSolver {
  public:
   struct Settings {

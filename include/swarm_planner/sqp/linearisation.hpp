@@ -15,9 +15,9 @@ struct QpModels {
 QpModels makeQpModels(const Parameters& parameters);
 
 /// Poses the QP of a problem at an iterate: the cost's gradient is exact there, its curvature that of the model, at
-/// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies on
-/// all control points of a segment, tangent planes for the norm limits. Only what lies within `band` [m] of the iterate
-/// gets rows.
+/// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies
+/// on all control points of a segment, tangent planes for the norm limits. Only what lies within `band` [m] of the
+/// iterate gets rows.
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp);
 
 /// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the
