@@ -2,6 +2,7 @@
 #include "swarm_planner/solver/generated_solver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <utility>
 
@@ -84,6 +85,7 @@ const GeneratedTables::Entry* GeneratedTables::find(const QpModel& model) const 
 
 struct GeneratedSolver::Memory {
   planner_qp_solver solver;
+  std::array<ActiveRow, PLANNER_QP_ROW_SLOTS> row_of_slot;  ///< what each of the solver's rows is, without multiplier
   const GeneratedTables::Entry* initialised_for = nullptr;
 };
 
@@ -101,7 +103,7 @@ QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
   if (entry == nullptr) return solution.status;
   if (memory_->initialised_for != entry) functions().init(&s, &entry->tables);
   memory_->initialised_for = entry;
-  load(qp);
+  load(qp, solution.active);
   const int status = functions().solve(&entry->tables, &s);
   solution.iterations = s.iterations;
   solution.fell_back = s.method != PLANNER_QP_ACTIVE_SET;
@@ -109,10 +111,27 @@ QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
   if (status == PLANNER_QP_CAP) solution.status = QpStatus::kIterationLimit;
   for (std::size_t k = 0; k < kHorizon; ++k) solution.jerks[k] = qp.axes * Eigen::Map<const Vector3>(s.u[k]);
   for (int i = 0; i < s.active_count; ++i) solution.max_slack = std::max(solution.max_slack, s.slack[i]);
+  storeActiveRows(solution.active);
   return solution.status;
 }
 
-void GeneratedSolver::load(const Qp& qp) {
+void GeneratedSolver::storeActiveRows(ActiveRows& active) const {
+  const planner_qp_solver& s = memory_->solver;
+  active.count = 0;
+  for (int i = 0; i < s.active_count; ++i) {
+    const int id = s.active_id[i];
+    if (id >= PLANNER_QP_ROW_SLOTS || !(s.multiplier[i] > 0.0)) continue;  // a curvature term
+    const ActiveRow& row = memory_->row_of_slot[static_cast<std::size_t>(id)];
+    int place = active.count++;
+    for (; place > 0 && active.rows[static_cast<std::size_t>(place - 1)].stage > row.stage; --place) {
+      active.rows[static_cast<std::size_t>(place)] = active.rows[static_cast<std::size_t>(place - 1)];
+    }
+    active.rows[static_cast<std::size_t>(place)] = row;
+    active.rows[static_cast<std::size_t>(place)].multiplier = s.multiplier[i];
+  }
+}
+
+void GeneratedSolver::load(const Qp& qp, const ActiveRows& guess) {
   planner_qp_solver& s = memory_->solver;
   const Matrix3 to_axes = qp.axes.transpose();
   copy(to_axes * qp.start.p, s.x0);
@@ -120,15 +139,29 @@ void GeneratedSolver::load(const Qp& qp) {
   copy(to_axes * qp.start.a, s.x0 + 6);
   planner_qp_clear_rows(&s);
   s.warm_count = 0;
+  int guess_begin = 0;
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = qp.stages[k];
     copy(to_axes * stage.position_gradient, s.state_linear[k - 1]);
     copy(to_axes * stage.velocity_gradient, s.state_linear[k - 1] + 3);
+    while (guess_begin < guess.count && guess.rows[static_cast<std::size_t>(guess_begin)].stage < static_cast<int>(k)) {
+      ++guess_begin;
+    }
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const QpRow& row = stage.rows[i];
       const Vector3 normal = to_axes * row.n;
-      planner_qp_add_row(&s, static_cast<int>(row.output), static_cast<int>(k), normal.data(), row.d,
-                         PLANNER_QP_PENALTY_SLACK);
+      const int slot = planner_qp_add_row(&s, static_cast<int>(row.output), static_cast<int>(k), normal.data(), row.d,
+                                          PLANNER_QP_PENALTY_SLACK);
+      memory_->row_of_slot[static_cast<std::size_t>(slot)] = {static_cast<std::int8_t>(k), row.output, row.source, 0.0};
+      for (int g = guess_begin; g < guess.count && guess.rows[static_cast<std::size_t>(g)].stage == static_cast<int>(k);
+           ++g) {
+        const ActiveRow& guessed = guess.rows[static_cast<std::size_t>(g)];
+        if (guessed.source != row.source || guessed.output != row.output) continue;
+        if (s.warm_count == PLANNER_QP_MAX_ACTIVE) break;
+        s.warm_id[s.warm_count] = slot;
+        s.warm_multiplier[s.warm_count++] = guessed.multiplier;
+        break;
+      }
     }
   }
   s.quadratic_count = qp.curvature_count;

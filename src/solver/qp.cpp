@@ -38,7 +38,18 @@ void Qp::clear() {
   }
 }
 
-bool Qp::addRow(int stage, Output output, const Vector3& n, double d) {
+void ActiveRows::shift(int stages) {
+  int kept = 0;
+  for (int i = 0; i < count; ++i) {
+    ActiveRow row = rows[static_cast<std::size_t>(i)];
+    if (row.stage <= stages) continue;
+    row.stage = static_cast<std::int8_t>(row.stage - stages);
+    rows[static_cast<std::size_t>(kept++)] = row;
+  }
+  count = kept;
+}
+
+bool Qp::addRow(int stage, Output output, const Vector3& n, double d, RowSource source) {
   QpStage& target = stages[static_cast<std::size_t>(stage)];
   int& count = target.output_rows[static_cast<std::size_t>(output)];
   if (count == (output <= Output::kControlPoint2 ? kMaxBodyRows : kMaxLimitRows)) return false;
@@ -47,6 +58,7 @@ bool Qp::addRow(int stage, Output output, const Vector3& n, double d) {
   row.n = n;
   row.d = d;
   row.output = output;
+  row.source = source;
   return true;
 }
 

@@ -15,24 +15,28 @@ namespace {
 constexpr double kNormBand = 0.6;        // of a norm limit, below which the iterate gets no tangent plane
 constexpr double kReachableSpeed = 0.7;  // of max_speed, sideways, when judging whether a way out can be reached
 
+/// Sources of rows: the limits' own at the iterate, their cuts by the number of the answer, the workspace's faces, and
+/// two per body, since a knot belongs to two segments.
+constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 200;
+
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
-void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d) {
+void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {
   if (i == 3) {
-    qp.addRow(k + 1, Output::kPosition, n, d);
+    qp.addRow(k + 1, Output::kPosition, n, d, source + 1);
   } else if (k > 0) {
     constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
-    qp.addRow(k, kOutputs[static_cast<std::size_t>(i)], n, d);
+    qp.addRow(k, kOutputs[static_cast<std::size_t>(i)], n, d, source);
   }
 }
 
 /// The plane that touches |value + centre| <= limit towards `value`, if `value` is at least `from` of the limit.
 void addTangent(Qp& qp, int stage, Output output, const Vector3& value, const Vector3& centre, double limit,
-                double from) {
+                double from, RowSource source) {
   const Vector3 outward = value + centre;
   const double norm = outward.norm();
   if (!(norm > from * limit)) return;
   const Vector3 n = -outward / norm;
-  qp.addRow(stage, output, n, -limit - n.dot(centre));
+  qp.addRow(stage, output, n, -limit - n.dot(centre), source);
 }
 
 /// What the model's mean drag leaves out of A of (3) where the axes' drags differ [m/s^2]; taken as constant.
@@ -40,21 +44,23 @@ Vector3 unequalDrag(const FlightBounds& bounds, const KinematicState& x, const Q
   return bounds.drag_over_mass.cwiseProduct(x.v) - qp.model.drag_over_mass * x.v;
 }
 
-void addNormTangents(const FlightBounds& bounds, const KinematicState& x, int stage, double from, Qp& qp) {
+void addNormTangents(const FlightBounds& bounds, const KinematicState& x, int stage, double from, RowSource source,
+                     Qp& qp) {
   const Vector3 none = Vector3::Zero();
-  addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed, from);
-  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.model.dt * x.a, none, bounds.max_speed, from);
-  addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration, from);
+  addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed, from, source);
+  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.model.dt * x.a, none, bounds.max_speed, from,
+             source);
+  addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration, from, source);
   addTangent(qp, stage, Output::kThrustAcceleration, x.a + qp.model.drag_over_mass * x.v,
-             bounds.gravity + unequalDrag(bounds, x, qp), bounds.max_thrust_acceleration, from);
+             bounds.gravity + unequalDrag(bounds, x, qp), bounds.max_thrust_acceleration, from, source);
 }
 
 void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage, Qp& qp) {
-  addNormTangents(bounds, x, stage, kNormBand, qp);
+  addNormTangents(bounds, x, stage, kNormBand, kIterateSource, qp);
   const double vertical_thrust = x.a.z() + bounds.drag_over_mass.z() * x.v.z();
   if (vertical_thrust < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
     qp.addRow(stage, Output::kThrustAcceleration, upward(),
-              bounds.min_vertical_thrust - unequalDrag(bounds, x, qp).z());
+              bounds.min_vertical_thrust - unequalDrag(bounds, x, qp).z(), kIterateSource + 1);
   }
 }
 
@@ -63,8 +69,9 @@ void addWorkspaceRows(const Workspace& workspace, int k, const SegmentPoints& po
     const Vector3& point = points[static_cast<std::size_t>(i)];
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3 n = Vector3::Unit(axis);
-      if (point[axis] - workspace.min[axis] < band) addControlPointRow(qp, k, i, n, workspace.min[axis]);
-      if (workspace.max[axis] - point[axis] < band) addControlPointRow(qp, k, i, -n, -workspace.max[axis]);
+      const RowSource source = kWorkspaceSource + 4 * static_cast<RowSource>(axis);
+      if (point[axis] - workspace.min[axis] < band) addControlPointRow(qp, k, i, n, workspace.min[axis], source);
+      if (workspace.max[axis] - point[axis] < band) addControlPointRow(qp, k, i, -n, -workspace.max[axis], source + 2);
     }
   }
 }
@@ -110,7 +117,8 @@ void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajec
     HalfSpace half_space = passage.near[i]->half_space;
     if (side && passage.near[i]->clearance < 0.0) half_space = side->halfSpace(body, midpoint(passage.relative[i]));
     for (int j = 0; j < 4; ++j) {
-      addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)));
+      addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),
+                         kBodySource + 2 * body.identity());
     }
   }
 }
@@ -191,9 +199,10 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
   }
 }
 
-void addNormCuts(const UavProblem& problem, const Trajectory& answer, Qp& qp) {
+void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp) {
   for (int k = 1; k <= kHorizon; ++k) {
-    addNormTangents(problem.bounds, answer.knots[static_cast<std::size_t>(k)], k, 1.0, qp);
+    addNormTangents(problem.bounds, answer.knots[static_cast<std::size_t>(k)], k, 1.0,
+                    kIterateSource + 2 + static_cast<RowSource>(number), qp);
   }
 }
 

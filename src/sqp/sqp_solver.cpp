@@ -29,11 +29,12 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
       solution_(std::make_unique<QpSolution>()),
       answers_(static_cast<std::size_t>(kMostSqpIterations)) {}
 
-SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
+SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active) {
   const SqpParameters& settings = problem.parameters->sqp;
   SqpResult result;
   double current_merit = merit(problem, plan);
   candidate_ = plan;
+  solution_->active = active;
   while (result.iterations < settings.max_iterations) {
     const QpStatus status = solveQp(problem, plan, result.iterations);
     ++result.iterations;
@@ -45,6 +46,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
     const double moved = acceptStep(problem, plan, current_merit);
     if (wanted < settings.step_tolerance || (moved == 0.0 && result.iterations > 1)) break;
   }
+  active = solution_->active;
   result.max_violation = planViolation(problem, plan).largest;
   return result;
 }
@@ -52,7 +54,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan) {
 QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, int iteration) {
   const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
   linearise(problem, plan, band, *qp_);
-  for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], *qp_);
+  for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], i, *qp_);
   const QpStatus status = qp_solver_->solve(*qp_, *solution_);
   Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];
   answer.dt = plan.dt;

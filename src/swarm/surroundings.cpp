@@ -86,6 +86,7 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
     MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
     body.relieve(problem.start.p - obstacle.center(), parameters_.limits.tracking_margin);
+    body.setIdentity(2 * static_cast<std::uint32_t>(obstacle.id()));
     problem.bodies.push_back(body);
   }
 }
@@ -97,6 +98,7 @@ void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& pr
     MovingBody body = MovingBody::fromUav(motion, horizontal_, vertical_,
                                           uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()));
     body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.tracking_margin);
+    body.setIdentity(2 * other + 1);
     problem.bodies.push_back(body);
   }
 }

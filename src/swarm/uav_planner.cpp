@@ -2,6 +2,7 @@
 #include "swarm_planner/swarm/uav_planner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "swarm_planner/swarm/plan_start.hpp"
@@ -21,6 +22,7 @@ void UavRecord::reset() {
   plans = 0;
   reference_pending = true;
   on_reference = false;
+  active.count = 0;
 }
 
 void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, double tracking_time) {
@@ -49,7 +51,8 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   } else {
     coastingPlan(record.start, epoch, problem_.dt, plan_);
   }
-  const SqpResult result = sqp_.solve(problem_, plan_);
+  guessActiveRows(epoch, record);
+  const SqpResult result = sqp_.solve(problem_, plan_, record.active);
   if (result.solved) {
     std::swap(record.previous, record.committed);
     record.committed = plan_;
@@ -70,6 +73,16 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   if (!result.solved) report.reason = Reason::kSolverFailed;
   report.state = report.reason == Reason::kNone ? UavState::kTracking : UavState::kFallback;
   report.solve_time = stopwatch.elapsed();
+}
+
+void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
+  const double stages = std::round((epoch - record.active_epoch) / problem_.dt);
+  if (stages >= 0.0 && stages < kHorizon) {
+    record.active.shift(static_cast<int>(stages));
+  } else {
+    record.active.count = 0;
+  }
+  record.active_epoch = epoch;
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {

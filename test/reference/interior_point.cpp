@@ -68,6 +68,7 @@ void InteriorPointSolver::forEachRow(const Qp& qp, const Function& function) {
 
 QpStatus InteriorPointSolver::solve(const Qp& qp, QpSolution& solution) {
   solution.iterations = 1;
+  solution.active.count = 0;
   solution.status = QpStatus::kSolved;
   row_total_ = 0;
   solveUnconstrained(qp);

@@ -20,6 +20,11 @@ QpStatus solveGenerated(const Qp& qp, QpSolution& solution) {
   return solver.solve(qp, solution);
 }
 
+Vector3 randomVector(std::mt19937_64& random) {
+  std::uniform_real_distribution<double> number(-1.0, 1.0);
+  return {number(random), number(random), number(random)};
+}
+
 class GeneratedSolverTest : public ::testing::TestWithParam<RowMix> {};
 
 TEST_P(GeneratedSolverTest, FindsTheKnownOptimum) {
@@ -47,6 +52,63 @@ TEST_P(GeneratedSolverTest, AgreesWithTheReference) {
     const double least = objective(known->qp, expected->jerks);
     EXPECT_NEAR(objective(known->qp, solution->jerks), least, 1e-7 * (1.0 + std::abs(least))) << "trial " << trial;
     EXPECT_NEAR(solution->max_slack, std::max(0.0, expected->max_slack), 1e-4) << "trial " << trial;
+  }
+}
+
+/// The known problem with rows that can be recognised: numbered within each stage and output.
+void numberRows(Qp& qp) {
+  for (QpStage& stage : qp.stages) {
+    for (int i = 0; i < stage.row_count; ++i) stage.rows[static_cast<std::size_t>(i)].source = 10 + static_cast<RowSource>(i);
+  }
+}
+
+TEST_P(GeneratedSolverTest, AGuessSavesTimeAndChangesNothing) {
+  std::mt19937_64 random(14);
+  auto cold = std::make_unique<QpSolution>();
+  auto warm = std::make_unique<QpSolution>();
+  int cold_changes = 0;
+  int warm_changes = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    numberRows(known->qp);
+    ASSERT_EQ(solveGenerated(known->qp, *warm), QpStatus::kSolved);
+    known->qp.stages[7].position_gradient += randomVector(random);
+    cold->active.count = 0;
+    ASSERT_EQ(solveGenerated(known->qp, *cold), QpStatus::kSolved);
+    ASSERT_EQ(solveGenerated(known->qp, *warm), QpStatus::kSolved);
+    for (std::size_t k = 0; k < kHorizon; ++k) {
+      EXPECT_LE((warm->jerks[k] - cold->jerks[k]).norm(), 1e-8) << "trial " << trial << ", stage " << k;
+    }
+    EXPECT_EQ(warm->active.count, cold->active.count);
+    cold_changes += cold->iterations;
+    warm_changes += warm->iterations;
+  }
+  EXPECT_LE(warm_changes, cold_changes);
+  if (cold_changes > 500) {
+    EXPECT_LT(warm_changes, cold_changes / 2);
+  }
+}
+
+// A guess comes from another time and, through a fault, from another UAV.
+TEST_P(GeneratedSolverTest, AWrongGuessChangesNothing) {
+  std::mt19937_64 random(15);
+  auto cold = std::make_unique<QpSolution>();
+  auto warm = std::make_unique<QpSolution>();
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    numberRows(known->qp);
+    cold->active.count = warm->active.count = 0;
+    ASSERT_EQ(solveGenerated(known->qp, *cold), QpStatus::kSolved);
+    for (std::int8_t stage = 1; stage <= kHorizon; ++stage) {
+      for (RowSource source = 10; source < 13; ++source) {
+        warm->active.rows[static_cast<std::size_t>(warm->active.count++)] = {
+            stage, Output::kPosition, source, std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 6.0)(random))};
+      }
+    }
+    ASSERT_EQ(solveGenerated(known->qp, *warm), QpStatus::kSolved);
+    for (std::size_t k = 0; k < kHorizon; ++k) {
+      EXPECT_LE((warm->jerks[k] - cold->jerks[k]).norm(), 1e-8) << "trial " << trial << ", stage " << k;
+    }
   }
 }
 

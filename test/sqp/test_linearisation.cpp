@@ -333,14 +333,14 @@ TEST_F(LinearisationTest, CutsOffAnAnswerBeyondTheNormLimits) {
   const Trajectory iterate = flight.coasting();
   linearise(flight.problem, iterate, kBand, *qp_);
   const int before = qp_->rowCount();
-  addNormCuts(flight.problem, iterate, *qp_);
+  addNormCuts(flight.problem, iterate, 0, *qp_);
   EXPECT_EQ(qp_->rowCount(), before) << "nothing to cut off an answer within the limits";
   Jerks jerks = noJerks();
   jerks[0] = Vector3(0, 10, 0);
   const Trajectory swinging = makePlan(start, jerks, 0.0, iterate.dt);
   ASSERT_GT(swinging.knots.back().v.norm(), flight.problem.bounds.max_speed);
   const double seen = worstRow(*qp_, swinging);
-  addNormCuts(flight.problem, swinging, *qp_);
+  addNormCuts(flight.problem, swinging, 0, *qp_);
   EXPECT_GT(qp_->rowCount(), before);
   EXPECT_GT(worstRow(*qp_, swinging), seen);
   EXPECT_LE(worstRow(*qp_, iterate), 1e-12) << "a cut must leave what is within the limits";

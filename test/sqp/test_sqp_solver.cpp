@@ -34,6 +34,11 @@ double leastDistance(const Trajectory& plan, const Superellipsoid& obstacle) {
   return least;
 }
 
+SqpResult solveCold(SqpSolver& solver, const UavProblem& problem, Trajectory& plan) {
+  ActiveRows none;
+  return solver.solve(problem, plan, none);
+}
+
 class SqpSolverTest : public ::testing::Test {
  protected:
   SqpSolver solver_{std::make_unique<InteriorPointSolver>()};
@@ -57,7 +62,7 @@ TEST_F(SqpSolverTest, NeverMakesAPlanWorse) {
     crowd(random, flight);
     const Trajectory guess = wanderingPlan(random, start, random.uniform(0.0, 6.0), 0.0, flight.problem.dt);
     Trajectory plan = guess;
-    const SqpResult result = solver_.solve(flight.problem, plan);
+    const SqpResult result = solveCold(solver_, flight.problem, plan);
     ASSERT_TRUE(result.solved);
     EXPECT_GE(result.iterations, 1);
     EXPECT_LE(result.iterations, flight.parameters.sqp.max_iterations);
@@ -83,7 +88,7 @@ TEST_F(SqpSolverTest, OneQpSolvesAnUnconstrainedProblem) {
                                Vector3(3, 0, 0) + random.vector(-0.3, 0.3), Vector3::Zero()};
     FlightProblem flight(kLine, 3.0, start);
     Trajectory plan = flight.coasting();
-    const SqpResult result = solver_.solve(flight.problem, plan);
+    const SqpResult result = solveCold(solver_, flight.problem, plan);
     EXPECT_LE(result.iterations, 2) << "the second one finds nothing left to do";
     // At the minimum no direction leads downhill.
     const double least = planCost(flight.problem, plan);
@@ -104,10 +109,10 @@ TEST_F(SqpSolverTest, ConvergesWithinItsIterationsToTheMinimum) {
     flight.parameters.sqp.max_iterations = 50;
     flight.parameters.sqp.step_tolerance = 1e-9;
     Trajectory converged = flight.coasting();
-    solver_.solve(flight.problem, converged);
+    solveCold(solver_, flight.problem, converged);
     flight.parameters.sqp = SqpParameters();
     Trajectory plan = flight.coasting();
-    solver_.solve(flight.problem, plan);
+    solveCold(solver_, flight.problem, plan);
     const double least = merit(flight.problem, converged);
     EXPECT_LT(merit(flight.problem, plan), least + 0.01 * (1.0 + least)) << "trial " << trial;
   }
@@ -117,9 +122,9 @@ TEST_F(SqpSolverTest, AWarmStartAtTheAnswerStaysThere) {
   const KinematicState start{Vector3(0, 1, 10), Vector3(3, 0, 0), Vector3::Zero()};
   FlightProblem flight(kLine, 3.0, start);
   Trajectory plan = flight.coasting();
-  solver_.solve(flight.problem, plan);
+  solveCold(solver_, flight.problem, plan);
   const Trajectory answer = plan;
-  const SqpResult again = solver_.solve(flight.problem, plan);
+  const SqpResult again = solveCold(solver_, flight.problem, plan);
   EXPECT_EQ(again.iterations, 1);
   EXPECT_LT(largestDistance(plan, answer), 1e-6);
 }
@@ -132,7 +137,7 @@ class ObstacleAhead : public SqpSolverTest, public ::testing::WithParamInterface
     FlightProblem flight(kLine, 3.0, start);
     if (avoid) flight.addObstacle(obstacle);
     Trajectory plan = flight.coasting();
-    for (int i = 0; i < 3; ++i) result_ = solver_.solve(flight.problem, plan);
+    for (int i = 0; i < 3; ++i) result_ = solveCold(solver_, flight.problem, plan);
     return plan;
   }
 
@@ -162,7 +167,7 @@ TEST_F(SqpSolverTest, CrossesTheWayOfAnotherUav) {
     FlightProblem flight(kLine, 3.0, start);
     if (avoid) flight.addUav(other);
     Trajectory plan = flight.coasting();
-    for (int i = 0; i < 3; ++i) solver_.solve(flight.problem, plan);
+    for (int i = 0; i < 3; ++i) solveCold(solver_, flight.problem, plan);
     double least = std::numeric_limits<double>::infinity();
     for (double t = 0.0; t <= plan.duration(); t += dt / 20.0) {
       least = std::min(least, pairGauge(plan.after(t).p - other.after(t).p, flight.parameters.limits));
@@ -180,7 +185,7 @@ TEST_F(SqpSolverTest, GoesBackIntoItsLimits) {
   const Workspace workspace{Vector3(-20, -2, 5), Vector3(100, 2, 15)};
   flight.setWorkspace(&workspace);
   Trajectory plan = flight.coasting();
-  for (int i = 0; i < 3; ++i) solver_.solve(flight.problem, plan);
+  for (int i = 0; i < 3; ++i) solveCold(solver_, flight.problem, plan);
   EXPECT_LT(plan.knots.back().v.norm(), 5.0 + 1e-3);
   EXPECT_LT(plan.knots.back().p.y(), 1.8 + 1e-3);
 }
@@ -194,7 +199,7 @@ TEST_F(SqpSolverTest, ReportsWhatItCannotKeep) {
         Superellipsoid(1, Vector3(0, y, 10), Vector3(50, 1, 50), Vector3::Constant(10.0), 0.0, Vector3::Zero()));
   }
   Trajectory plan = flight.coasting();
-  const SqpResult result = solver_.solve(flight.problem, plan);
+  const SqpResult result = solveCold(solver_, flight.problem, plan);
   EXPECT_TRUE(result.solved);
   EXPECT_GT(result.max_violation, 0.2);
 }
@@ -210,7 +215,7 @@ TEST_F(SqpSolverTest, LeavesThePlanAloneIfTheStartIsNotFinite) {
       KinematicState& broken = flight.problem.start;
       (component < 3 ? broken.p : component < 6 ? broken.v : broken.a)[component % 3] = bad;
       SqpResult result;
-      EXPECT_NO_THROW(result = solver_.solve(flight.problem, plan));
+      EXPECT_NO_THROW(result = solveCold(solver_, flight.problem, plan));
       EXPECT_FALSE(result.solved) << "component " << component << " " << bad;
       EXPECT_TRUE(identical(plan, guess));
     }
@@ -218,10 +223,10 @@ TEST_F(SqpSolverTest, LeavesThePlanAloneIfTheStartIsNotFinite) {
   // And the next problem is solved as if nothing had been.
   FlightProblem flight(kLine, 3.0, {Vector3(0, 1, 10), Vector3(3, 0, 0), Vector3::Zero()});
   Trajectory plan = flight.coasting();
-  EXPECT_TRUE(solver_.solve(flight.problem, plan).solved);
+  EXPECT_TRUE(solveCold(solver_, flight.problem, plan).solved);
   SqpSolver fresh(std::make_unique<InteriorPointSolver>());
   Trajectory expected = flight.coasting();
-  fresh.solve(flight.problem, expected);
+  solveCold(fresh, flight.problem, expected);
   EXPECT_TRUE(identical(plan, expected));
 }
 
@@ -233,9 +238,9 @@ TEST_F(SqpSolverTest, GivesTheSamePlanForTheSameProblem) {
     crowd(random, flight);
     Trajectory first = flight.coasting();
     Trajectory second = first;
-    solver_.solve(flight.problem, first);
+    solveCold(solver_, flight.problem, first);
     SqpSolver other(std::make_unique<InteriorPointSolver>());
-    other.solve(flight.problem, second);
+    solveCold(other, flight.problem, second);
     EXPECT_TRUE(identical(first, second)) << "trial " << trial;
   }
 }

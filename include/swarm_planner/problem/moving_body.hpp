@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstdint>
+
 #include "swarm_planner/obstacles/superellipsoid.hpp"
 #include "swarm_planner/problem/segment.hpp"
 
@@ -25,6 +27,10 @@ class MovingBody {
   /// Another UAV; the pair ellipsoid has the semi-axes `horizontal` and `vertical` [m]. `apart`: unit vector along
   /// which the two part where they coincide, opposite for the two of a pair. The motion must outlive the body.
   static MovingBody fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart);
+
+  /// Tells bodies of one problem apart; the same from cycle to cycle.
+  std::uint32_t identity() const { return identity_; }
+  void setIdentity(std::uint32_t identity) { identity_ = identity; }
 
   /// Gives way where the horizon's start at `r` is closer than the distance to keep: up to `margin` [m] of the
   /// distance is waived at first and demanded again within kReliefStages stages.
@@ -57,6 +63,7 @@ class MovingBody {
   const Superellipsoid* obstacle_ = nullptr;
   const PredictedMotion* motion_ = nullptr;
   Vector3 step_ = Vector3::Zero();  ///< of an obstacle's centre per stage [m]
+  std::uint32_t identity_ = 0;
   double level_ = 1.0;
   double distance_ = 0.0;
   Vector3 scale_ = Vector3::Ones();  ///< shorter semi-axis over each semi-axis of a pair ellipsoid

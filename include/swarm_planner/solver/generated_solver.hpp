@@ -37,7 +37,8 @@ class GeneratedSolver final : public QpSolver {
  private:
   struct Memory;
 
-  void load(const Qp& qp);
+  void load(const Qp& qp, const ActiveRows& guess);
+  void storeActiveRows(ActiveRows& active) const;
 
   std::shared_ptr<const GeneratedTables> tables_;
   std::unique_ptr<Memory> memory_;

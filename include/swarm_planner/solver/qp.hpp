@@ -49,11 +49,34 @@ struct QpModel {
   bool operator==(const QpModel& other) const;
 };
 
+/// Says what a row belongs to. Rows of one stage and output that mean the same thing in two QPs have the same one, so
+/// that the rows that were active in the first can be recognised in the second.
+using RowSource = std::uint32_t;
+
 /// Soft half-space n . y + s >= d, s >= 0 with penalty slack_linear s + 1/2 slack_quadratic s^2.
 struct QpRow {
   Vector3 n = Vector3::Zero();
   double d = 0.0;
   Output output = Output::kPosition;
+  RowSource source = 0;
+};
+
+/// A row of stage 1..N that is active at an optimum.
+struct ActiveRow {
+  std::int8_t stage = 0;
+  Output output = Output::kPosition;
+  RowSource source = 0;
+  double multiplier = 0.0;  ///< > 0
+};
+
+/// The active rows of a QP, sorted by stage; a guess of those of the next.
+struct ActiveRows {
+  static constexpr int kCapacity = 128;
+  int count = 0;
+  std::array<ActiveRow, kCapacity> rows;
+
+  /// Moves all `stages` stages towards the horizon's start; what passes it is dropped.
+  void shift(int stages);
 };
 
 /// Curvature along one direction of a stage's position: 1/2 weight (n . p)^2.
@@ -93,7 +116,7 @@ struct Qp {
   void setModel(const QpModel& new_model);
   void clear();  ///< no rows, no curvatures
   /// Appends a row to stage 1..N; false if there is no room for it.
-  bool addRow(int stage, Output output, const Vector3& n, double d);
+  bool addRow(int stage, Output output, const Vector3& n, double d, RowSource source = 0);
   /// Appends a curvature term; false if there is no room for it.
   bool addCurvature(int stage, const Vector3& n, double weight);
   int rowCount() const;
@@ -114,12 +137,14 @@ struct QpSolution {
   bool fell_back = false;  ///< the second method answered, since the first met its cap
   double max_slack = 0.0;
   std::array<Vector3, kHorizon> jerks;
+  ActiveRows active;
 };
 
 /// A solver of Qp. One object per thread; keeps its memory; never allocates while solving.
 class QpSolver {
  public:
   virtual ~QpSolver() = default;
+  /// `solution.active` as it comes in is taken for a guess of the active rows, which changes the time, not the answer.
   virtual QpStatus solve(const Qp& qp, QpSolution& solution) = 0;
 };
 

@@ -21,7 +21,7 @@ QpModels makeQpModels(const Parameters& parameters);
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp);
 
 /// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the
-/// iterate alone, the next answer may swing sideways past the limit.
-void addNormCuts(const UavProblem& problem, const Trajectory& answer, Qp& qp);
+/// iterate alone, the next answer may swing sideways past the limit. `number` tells the answers of one problem apart.
+void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp);
 
 }  // namespace swarm_planner

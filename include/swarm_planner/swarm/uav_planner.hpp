@@ -24,6 +24,8 @@ struct UavRecord {
   Trajectory committed;
   Trajectory previous;
   KinematicState start;  ///< of the plan in work, at its epoch
+  ActiveRows active;     ///< of the last QP, at `active_epoch`
+  double active_epoch = 0.0;
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
   /// Forgets all plans; the reference starts anew.
@@ -47,6 +49,8 @@ class UavPlanner {
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
  private:
+  /// What was active in the last plan's QP, moved on to `epoch`.
+  void guessActiveRows(double epoch, UavRecord& record) const;
   void poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
 
   const Parameters& parameters_;
