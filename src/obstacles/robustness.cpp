@@ -43,6 +43,19 @@ SmoothStep smoothStep(double t, double inner, double outer) {
   return step;
 }
 
+double robustnessValue(const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
+  const Vector3 u = point - obstacle.center();
+  if (parameters.gain == 0.0) return 0.0;
+  const double sum = obstacle.sum(u);
+  if (!(sum < parameters.outer)) return 0.0;
+  const double radius = obstacle.radii().maxCoeff();
+  const double core = kRobustnessCore * radius;
+  const double scale = parameters.gain * std::exp(parameters.epsilon) * radius * radius;
+  const double squared = u.squaredNorm();
+  if (squared < core * core) return scale / (core * core);
+  return scale * smoothStep(sum, parameters.inner, parameters.outer).value / squared;
+}
+
 Robustness robustness(const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
   Robustness result;
   const Vector3 u = point - obstacle.center();

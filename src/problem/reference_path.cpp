@@ -10,9 +10,11 @@ namespace swarm_planner {
 ReferencePath::ReferencePath(const std::vector<Vector3>& points) {
   points_.reserve(points.size());
   arc_lengths_.reserve(points.size());
+  tangents_.reserve(points.size());
   for (const Vector3& point : points) {
     const double step = points_.empty() ? 0.0 : (point - points_.back()).norm();
     if (!points_.empty() && step < kShortestSegment) continue;
+    if (!points_.empty()) tangents_.push_back((point - points_.back()) / step);
     arc_lengths_.push_back(length() + step);
     points_.push_back(point);
   }
@@ -24,9 +26,8 @@ std::size_t ReferencePath::segmentAt(double arc_length) const {
 }
 
 PathPoint ReferencePath::onSegment(std::size_t segment, double arc_length) const {
-  const Vector3 step = points_[segment + 1] - points_[segment];
   PathPoint point;
-  point.tangent = step / step.norm();
+  point.tangent = tangents_[segment];
   point.position = points_[segment] + (arc_length - arc_lengths_[segment]) * point.tangent;
   point.arc_length = arc_length;
   return point;

@@ -11,7 +11,10 @@ namespace {
 
 constexpr double kVerticalPath = 1e-3;  // horizontal part of a unit tangent below which a path counts as vertical
 
-void addRobustness(const UavProblem& problem, int stage, const Vector3& p, StageCost& cost) {
+/// Calls add(obstacle, point, parameters) for every obstacle that may have a robustness term at the stage's position
+/// `p`; `point` is p as the obstacle's frame has it, which stays where it is at the epoch.
+template <class Function>
+void forEachObstacleNear(const UavProblem& problem, int stage, const Vector3& p, const Function& add) {
   const CostParameters& weights = problem.parameters->cost;
   if (weights.robustness_gain == 0.0) return;
   const RobustnessParameters parameters(weights);
@@ -21,11 +24,38 @@ void addRobustness(const UavProblem& problem, int stage, const Vector3& p, Stage
     const Superellipsoid& obstacle = *body.obstacle();
     const Vector3 point = p - stage * problem.dt * obstacle.velocity();
     if (((point - obstacle.center()).cwiseAbs().array() > reach * obstacle.halfExtents().array()).any()) continue;
-    const Robustness term = robustness(obstacle, point, parameters);
-    cost.value += problem.dt * term.value;
-    cost.position_gradient += problem.dt * term.gradient;
-    cost.robustness_hessian += problem.dt * term.projected;
+    add(obstacle, point, parameters);
   }
+}
+
+/// A state's deviations from the reference and from the target.
+struct Deviation {
+  Deviation(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x)
+      : across(frame.horizontal.dot(x.p - frame.foot.position)),
+        above(frame.vertical.dot(x.p - frame.foot.position)),
+        behind(x.p - problem.targets[static_cast<std::size_t>(stage)].p),
+        slower(x.v - problem.targets[static_cast<std::size_t>(stage)].v) {}
+
+  /// Cost (16) without robustness term and jerk.
+  double cost(const CostParameters& weights) const {
+    return weights.alpha * across * across + weights.beta * above * above + weights.eta * behind.squaredNorm() +
+           weights.eta * weights.velocity_time * weights.velocity_time * slower.squaredNorm();
+  }
+
+  double across;
+  double above;
+  Vector3 behind;
+  Vector3 slower;
+};
+
+double stageCostValue(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x) {
+  double value = Deviation(problem, stage, frame, x).cost(problem.parameters->cost);
+  forEachObstacleNear(
+      problem, stage, x.p,
+      [&](const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
+        value += robustnessValue(obstacle, point, parameters);
+      });
+  return problem.dt * value;
 }
 
 }  // namespace
@@ -42,33 +72,39 @@ StageFrame makeStageFrame(const PathPoint& foot) {
 void findStageFrames(const UavProblem& problem, const Trajectory& plan, StageFrames& frames) {
   double near = problem.progress;
   for (std::size_t k = 0; k <= kHorizon; ++k) {
-    frames[k] = makeStageFrame(problem.path->nearest(plan.knots[k].p, near));
-    near = frames[k].foot.arc_length;
+    const PathPoint foot = problem.path->nearest(plan.knots[k].p, near);
+    if (k > 0 && foot.tangent == frames[k - 1].foot.tangent) {
+      frames[k] = {foot, frames[k - 1].horizontal, frames[k - 1].vertical};
+    } else {
+      frames[k] = makeStageFrame(foot);
+    }
+    near = foot.arc_length;
   }
 }
 
 StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x) {
   const CostParameters& weights = problem.parameters->cost;
-  const TargetState& target = problem.targets[static_cast<std::size_t>(stage)];
   const double dt = problem.dt;
-  const double across = frame.horizontal.dot(x.p - frame.foot.position);
-  const double above = frame.vertical.dot(x.p - frame.foot.position);
-  const Vector3 behind = x.p - target.p;
-  const Vector3 slower = x.v - target.v;
-  const double velocity_weight = weights.eta * weights.velocity_time * weights.velocity_time;
+  const Deviation deviation(problem, stage, frame, x);
 
   StageCost cost;
-  cost.value = dt * (weights.alpha * across * across + weights.beta * above * above +
-                     weights.eta * behind.squaredNorm() + velocity_weight * slower.squaredNorm());
-  cost.position_gradient =
-      2.0 * dt *
-      (weights.alpha * across * frame.horizontal + weights.beta * above * frame.vertical + weights.eta * behind);
-  cost.velocity_gradient = 2.0 * dt * velocity_weight * slower;
+  cost.value = dt * deviation.cost(weights);
+  cost.position_gradient = 2.0 * dt *
+                           (weights.alpha * deviation.across * frame.horizontal +
+                            weights.beta * deviation.above * frame.vertical + weights.eta * deviation.behind);
+  cost.velocity_gradient = velocityWeight(*problem.parameters) * deviation.slower;
   cost.position_hessian =
       2.0 * dt *
       (weights.alpha * frame.horizontal * frame.horizontal.transpose() +
        weights.beta * frame.vertical * frame.vertical.transpose() + weights.eta * Matrix3::Identity());
-  addRobustness(problem, stage, x.p, cost);
+  forEachObstacleNear(
+      problem, stage, x.p,
+      [&](const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
+        const Robustness term = robustness(obstacle, point, parameters);
+        cost.value += dt * term.value;
+        cost.position_gradient += dt * term.gradient;
+        cost.robustness_hessian += dt * term.projected;
+      });
   cost.position_hessian += cost.robustness_hessian;
   return cost;
 }
@@ -86,7 +122,7 @@ double planCost(const UavProblem& problem, const Trajectory& plan) {
   double sum = 0.0;
   for (int k = 1; k <= kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    sum += stageCost(problem, k, frames[i], plan.knots[i]).value;
+    sum += stageCostValue(problem, k, frames[i], plan.knots[i]);
     sum += 0.5 * jerkWeight(*problem.parameters) * plan.jerks[i - 1].squaredNorm();
   }
   return sum;

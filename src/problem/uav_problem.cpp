@@ -92,11 +92,12 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan) {
   return violation;
 }
 
-double merit(const UavProblem& problem, const Trajectory& plan) {
+Merit merit(const UavProblem& problem, const Trajectory& plan) {
   const Violation violation = planViolation(problem, plan);
   const SqpParameters& sqp = problem.parameters->sqp;
-  return planCost(problem, plan) + sqp.slack_linear * violation.linear +
-         0.5 * sqp.slack_quadratic * violation.quadratic;
+  return {
+      planCost(problem, plan) + sqp.slack_linear * violation.linear + 0.5 * sqp.slack_quadratic * violation.quadratic,
+      violation.largest};
 }
 
 PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {

@@ -27,7 +27,7 @@ double robustnessCost(const Vector3& p, const std::vector<Superellipsoid>& obsta
   for (const Superellipsoid& obstacle : obstacles) {
     const Vector3 u = p - obstacle.center();
     if ((u.cwiseAbs().array() > reach * obstacle.halfExtents().array()).any()) continue;
-    sum += robustness(obstacle, p, parameters).value;
+    sum += robustnessValue(obstacle, p, parameters);
   }
   return sum;
 }

@@ -59,8 +59,8 @@ void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage
   addNormTangents(bounds, x, stage, kNormBand, kIterateSource, qp);
   const double vertical_thrust = x.a.z() + bounds.drag_over_mass.z() * x.v.z();
   if (vertical_thrust < (1.0 - kNormBand) * bounds.min_vertical_thrust) {
-    qp.addRow(stage, Output::kThrustAcceleration, upward(),
-              bounds.min_vertical_thrust - unequalDrag(bounds, x, qp).z(), kIterateSource + 1);
+    qp.addRow(stage, Output::kThrustAcceleration, upward(), bounds.min_vertical_thrust - unequalDrag(bounds, x, qp).z(),
+              kIterateSource + 1);
   }
 }
 
@@ -132,13 +132,13 @@ bool hasOneTangent(const StageFrames& frames) {
 
 /// Gives the QP the positive eigenvalues of a stage's robustness Hessian; one as a rule.
 void addCurvatures(const Matrix3& hessian, int stage, Qp& qp) {
-  constexpr double kNegligible = 1e-9;
+  constexpr double kNegligible = 1e-3;  // of the curvature that is there anyway
   if (hessian.isZero(0.0)) return;
   Eigen::SelfAdjointEigenSolver<Matrix3> eigen;
   eigen.computeDirect(hessian);
   for (Eigen::Index i = 2; i >= 0; --i) {
     const double weight = eigen.eigenvalues()[i];
-    if (weight > kNegligible * eigen.eigenvalues()[2]) qp.addCurvature(stage, eigen.eigenvectors().col(i), weight);
+    if (weight > kNegligible * qp.model.along_weight) qp.addCurvature(stage, eigen.eigenvectors().col(i), weight);
   }
 }
 

@@ -32,7 +32,7 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active) {
   const SqpParameters& settings = problem.parameters->sqp;
   SqpResult result;
-  double current_merit = merit(problem, plan);
+  Merit current = merit(problem, plan);
   candidate_ = plan;
   solution_->active = active;
   while (result.iterations < settings.max_iterations) {
@@ -43,11 +43,11 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
     result.solved = true;
     // A step that was cut short has met something that the QP did not know; what it met is in the next QP.
     const double wanted = largestMove(plan, answers_[static_cast<std::size_t>(result.iterations - 1)]);
-    const double moved = acceptStep(problem, plan, current_merit);
+    const double moved = acceptStep(problem, plan, current);
     if (wanted < settings.step_tolerance || (moved == 0.0 && result.iterations > 1)) break;
   }
   active = solution_->active;
-  result.max_violation = planViolation(problem, plan).largest;
+  result.max_violation = current.largest_violation;
   return result;
 }
 
@@ -63,18 +63,18 @@ QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, i
   return status;
 }
 
-double SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit) {
+double SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, Merit& current) {
   for (const double length : kStepLengths) {
     for (std::size_t k = 0; k < kHorizon; ++k) {
       candidate_.jerks[k] = plan.jerks[k] + length * (solution_->jerks[k] - plan.jerks[k]);
     }
     rollOut(problem.start, candidate_);
-    const double candidate_merit = merit(problem, candidate_);
-    if (!(candidate_merit < current_merit)) continue;
+    const Merit candidate = merit(problem, candidate_);
+    if (!(candidate.value < current.value)) continue;
     const double moved = largestMove(plan, candidate_);
     plan.jerks = candidate_.jerks;
     plan.knots = candidate_.knots;
-    current_merit = candidate_merit;
+    current = candidate;
     return moved;
   }
   return 0.0;

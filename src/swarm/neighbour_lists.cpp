@@ -32,17 +32,20 @@ void NeighbourLists::reserve(std::size_t boxes) {
   bucket_begin_.reserve(bucketCount(boxes) + 1);
   offsets_.reserve(boxes + 1);
   members_.reserve(boxes);
+  filled_.reserve(boxes);
+  found_.reserve(boxes * std::min(boxes - 1, kMostNeighbours));
   neighbours_.reserve(boxes * std::min(boxes - 1, kMostNeighbours));
 }
 
 void NeighbourLists::build(const std::vector<Box>& boxes) {
   sortIntoBuckets(boxes);
   offsets_.assign(1, 0);
-  neighbours_.clear();
+  found_.clear();
   for (std::size_t box = 0; box < boxes.size(); ++box) {
-    if (!isEmpty(boxes[box])) appendNeighbours(boxes, box);
-    offsets_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+    if (!isEmpty(boxes[box])) findNeighbours(boxes[box], box);
+    offsets_.push_back(static_cast<std::uint32_t>(found_.size()));
   }
+  sortLists(boxes.size());
 }
 
 /// Cells as large as the largest box: two boxes that overlap have their centres in the same or in adjacent cells.
@@ -66,24 +69,36 @@ void NeighbourLists::sortIntoBuckets(const std::vector<Box>& boxes) {
   members_.resize(bucket_begin_[buckets]);
   // Filled from the back, so that bucket_begin_ ends up where it began and members ascend.
   for (std::size_t i = boxes.size(); i-- > 0;) {
-    if (!isEmpty(boxes[i])) members_[--bucket_begin_[bucketOf(cells_[i]) + 1]] = static_cast<std::uint32_t>(i);
+    if (isEmpty(boxes[i])) continue;
+    members_[--bucket_begin_[bucketOf(cells_[i]) + 1]] = {cells_[i], boxes[i], static_cast<std::uint32_t>(i)};
   }
   for (std::size_t b = 0; b < buckets; ++b) bucket_begin_[b] = bucket_begin_[b + 1];
   bucket_begin_[buckets] = static_cast<std::uint32_t>(members_.size());
 }
 
-void NeighbourLists::appendNeighbours(const std::vector<Box>& boxes, std::size_t box) {
-  const auto begin = static_cast<std::ptrdiff_t>(neighbours_.size());
+void NeighbourLists::findNeighbours(const Box& box, std::size_t index) {
   for (int adjacent = 0; adjacent < 27; ++adjacent) {
-    const Cell cell{cells_[box][0] + adjacent % 3 - 1, cells_[box][1] + adjacent / 3 % 3 - 1,
-                    cells_[box][2] + adjacent / 9 - 1};
+    const Cell cell{cells_[index][0] + adjacent % 3 - 1, cells_[index][1] + adjacent / 3 % 3 - 1,
+                    cells_[index][2] + adjacent / 9 - 1};
     const std::size_t bucket = bucketOf(cell);
     for (std::uint32_t m = bucket_begin_[bucket]; m < bucket_begin_[bucket + 1]; ++m) {
-      const std::uint32_t other = members_[m];
-      if (other != box && cells_[other] == cell && boxes[box].near(boxes[other], 0.0)) neighbours_.push_back(other);
+      const Member& member = members_[m];
+      if (member.index != index && member.cell == cell && box.near(member.box, 0.0)) found_.push_back(member.index);
     }
   }
-  std::sort(neighbours_.begin() + begin, neighbours_.end());
+}
+
+/// Overlap is mutual: whoever goes through the lists in order and enters each box with its neighbours meets every
+/// list's entries in order.
+void NeighbourLists::sortLists(std::size_t boxes) {
+  neighbours_.resize(found_.size());
+  filled_.assign(boxes, 0);
+  for (std::size_t box = 0; box < boxes; ++box) {
+    for (std::uint32_t i = offsets_[box]; i < offsets_[box + 1]; ++i) {
+      const std::uint32_t other = found_[i];
+      neighbours_[offsets_[other] + filled_[other]++] = static_cast<std::uint32_t>(box);
+    }
+  }
 }
 
 }  // namespace swarm_planner

@@ -186,7 +186,7 @@ void evaluatingMerit(benchmark::State& state) {
   MidFlight& swarm = midFlight(state);
   for (auto _ : state) {
     for (std::size_t i = 0; i < swarm.uavCount(); ++i) {
-      benchmark::DoNotOptimize(merit(swarm.problems()[i], swarm.guesses()[i]));
+      benchmark::DoNotOptimize(merit(swarm.problems()[i], swarm.guesses()[i]).value);
     }
   }
   perUav(state);

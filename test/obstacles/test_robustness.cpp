@@ -48,6 +48,7 @@ TEST(Robustness, IsEquationsEightToTwelve) {
     const Vector3 point = pointInBand(random, body, parameters);
     const double expected = robustnessAsPrinted(body, point, parameters);
     EXPECT_NEAR(robustness(body, point, parameters).value, expected, 1e-11 * (1.0 + expected));
+    EXPECT_NEAR(robustnessValue(body, point, parameters), expected, 1e-11 * (1.0 + expected));
   }
 }
 

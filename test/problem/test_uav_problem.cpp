@@ -158,7 +158,7 @@ TEST_F(ViolationTest, MeritIsTheCostAndBothPenalties) {
   const Violation violation = planViolation(flight_.problem, plan);
   const SqpParameters& sqp = flight_.parameters.sqp;
   ASSERT_GT(violation.linear, 1.0);
-  EXPECT_NEAR(merit(flight_.problem, plan),
+  EXPECT_NEAR(merit(flight_.problem, plan).value,
               planCost(flight_.problem, plan) + sqp.slack_linear * violation.linear +
                   0.5 * sqp.slack_quadratic * violation.quadratic,
               1e-9);
@@ -169,7 +169,7 @@ TEST_F(ViolationTest, MeritOfAPlanThatIsNotFiniteIsNotBelowAnything) {
   for (const double bad : {std::nan(""), kInfinity, -kInfinity}) {
     Trajectory plan = resting(Vector3(0, 1, 10));
     plan.knots[7].p.y() = bad;
-    EXPECT_FALSE(merit(flight_.problem, plan) < std::numeric_limits<double>::max());
+    EXPECT_FALSE(merit(flight_.problem, plan).value < std::numeric_limits<double>::max());
   }
 }
 

@@ -66,8 +66,8 @@ TEST_F(SqpSolverTest, NeverMakesAPlanWorse) {
     ASSERT_TRUE(result.solved);
     EXPECT_GE(result.iterations, 1);
     EXPECT_LE(result.iterations, flight.parameters.sqp.max_iterations);
-    const double before = merit(flight.problem, guess);
-    const double after = merit(flight.problem, plan);
+    const double before = merit(flight.problem, guess).value;
+    const double after = merit(flight.problem, plan).value;
     ASSERT_TRUE(std::isfinite(after));
     EXPECT_LE(after, before) << "trial " << trial;
     EXPECT_EQ(result.max_violation, planViolation(flight.problem, plan).largest);
@@ -113,8 +113,8 @@ TEST_F(SqpSolverTest, ConvergesWithinItsIterationsToTheMinimum) {
     flight.parameters.sqp = SqpParameters();
     Trajectory plan = flight.coasting();
     solveCold(solver_, flight.problem, plan);
-    const double least = merit(flight.problem, converged);
-    EXPECT_LT(merit(flight.problem, plan), least + 0.01 * (1.0 + least)) << "trial " << trial;
+    const double least = merit(flight.problem, converged).value;
+    EXPECT_LT(merit(flight.problem, plan).value, least + 0.01 * (1.0 + least)) << "trial " << trial;
   }
 }
 

@@ -52,6 +52,9 @@ struct Robustness {
 /// that everything stays finite.
 Robustness robustness(const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters);
 
+/// The value alone, which is much cheaper.
+double robustnessValue(const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters);
+
 /// Fraction of the largest radius within which the function is constant.
 constexpr double kRobustnessCore = 1e-3;
 

@@ -41,6 +41,7 @@ class ReferencePath {
 
   std::vector<Vector3> points_;
   std::vector<double> arc_lengths_;
+  std::vector<Vector3> tangents_;  ///< of the segment that begins at each point but the last
 };
 
 /// State of a moving target.

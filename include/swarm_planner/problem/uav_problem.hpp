@@ -57,8 +57,12 @@ struct Violation {
 /// velocities at the Bernstein control points between them, so that nothing happens between the samples unseen.
 Violation planViolation(const UavProblem& problem, const Trajectory& plan);
 
-/// The exact penalty function that every step has to decrease: cost (17) plus the L1 and quadratic penalties.
-double merit(const UavProblem& problem, const Trajectory& plan);
+/// The exact penalty function that every step has to decrease.
+struct Merit {
+  double value = 0.0;              ///< cost (17) plus the L1 and quadratic penalties
+  double largest_violation = 0.0;  ///< planViolation(...).largest
+};
+Merit merit(const UavProblem& problem, const Trajectory& plan);
 
 /// Smallest clearances that a plan predicts at its knots: lower bounds that are exact for spheres.
 struct PredictedClearance {

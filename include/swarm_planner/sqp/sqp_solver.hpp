@@ -32,7 +32,7 @@ class SqpSolver {
   /// Poses the QP at `plan`, with the cuts that the earlier answers of this run call for, and solves it.
   QpStatus solveQp(const UavProblem& problem, const Trajectory& plan, int iteration);
   /// Moves `plan` towards the QP's answer as far as the merit decreases. Returns how far any knot moved [m].
-  double acceptStep(const UavProblem& problem, Trajectory& plan, double& current_merit);
+  double acceptStep(const UavProblem& problem, Trajectory& plan, Merit& current);
 
   std::unique_ptr<QpSolver> qp_solver_;
   std::unique_ptr<Qp> qp_;

@@ -34,13 +34,23 @@ class NeighbourLists {
  private:
   using Cell = std::array<std::int64_t, 3>;
 
+  /// A box as its bucket holds it, so that a bucket is read from one end to the other.
+  struct Member {
+    Cell cell;  ///< of the box's centre
+    Box box;
+    std::uint32_t index;
+  };
+
   void sortIntoBuckets(const std::vector<Box>& boxes);
-  void appendNeighbours(const std::vector<Box>& boxes, std::size_t box);
+  void findNeighbours(const Box& box, std::size_t index);
+  void sortLists(std::size_t boxes);
   std::size_t bucketOf(const Cell& cell) const;
 
   std::vector<Cell> cells_;                  ///< of each box's centre
   std::vector<std::uint32_t> bucket_begin_;  ///< bucket b holds members_[bucket_begin_[b] .. bucket_begin_[b + 1])
-  std::vector<std::uint32_t> members_;
+  std::vector<Member> members_;
+  std::vector<std::uint32_t> found_;  ///< as neighbours_, each list in any order
+  std::vector<std::uint32_t> filled_;
   std::vector<std::uint32_t> offsets_;
   std::vector<std::uint32_t> neighbours_;
 };
