@@ -27,16 +27,42 @@ double supportOfEqualExponents(const Vector3& m, double p) {
 /// Separation of two boxes along each axis [m], 0 where they overlap.
 Vector3 gaps(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0); }
 
+Vector3 toBody(const Superellipsoid& body, const Vector3& u) {
+  const double c = std::cos(body.yaw());
+  const double s = std::sin(body.yaw());
+  return Vector3(c * u.x() + s * u.y(), c * u.y() - s * u.x(), u.z());
+}
+
+Vector3 toWorld(const Superellipsoid& body, const Vector3& u) {
+  const double c = std::cos(body.yaw());
+  const double s = std::sin(body.yaw());
+  return Vector3(c * u.x() - s * u.y(), s * u.x() + c * u.y(), u.z());
+}
+
+/// The point of a curve's chord that is nearest to the origin: where a straight flight passes.
+Vector3 nearestOfChord(const BernsteinPoints<4>& points) {
+  const Vector3 chord = points[3] - points[0];
+  const double squared_length = chord.squaredNorm();
+  if (!(squared_length > 0.0)) return points[0];
+  return points[0] + std::min(std::max(-points[0].dot(chord) / squared_length, 0.0), 1.0) * chord;
+}
+
+/// A direction in which the body, taken for something between an ellipsoid and a box, is left behind; zero inside.
+Vector3 directionFrom(const Superellipsoid& body, const Vector3& point) {
+  constexpr double kInner = 0.6;
+  const Vector3 in_body = toBody(body, point);
+  const Vector3 inner = kInner * body.radii();
+  const Vector3 away = in_body - in_body.cwiseMax(-inner).cwiseMin(inner);
+  return toWorld(body, away.normalized());
+}
+
 }  // namespace
 
 double supportBound(const Superellipsoid& body, const Vector3& n) {
   constexpr int kMaxSteps = 20;
   constexpr double kTolerance = 1e-7;  // of the logarithm of the sum; the bound is off by its square
   constexpr double kRounding = 1e-12;
-  const double c = std::cos(body.yaw());
-  const double s = std::sin(body.yaw());
-  const Vector3 in_body(c * n.x() + s * n.y(), c * n.y() - s * n.x(), n.z());
-  const Vector3 m = in_body.cwiseAbs().cwiseProduct(body.radii());
+  const Vector3 m = toBody(body, n).cwiseAbs().cwiseProduct(body.radii());
   const Vector3& p = body.exponents();
   if (p.minCoeff() == p.maxCoeff()) return (1.0 + kRounding) * supportOfEqualExponents(m, p[0]);
 
@@ -67,29 +93,27 @@ double supportBound(const Superellipsoid& body, const Vector3& n) {
   return (1.0 + kRounding) * bound;
 }
 
-bool ObstacleProof::isBehindPlane(const BernsteinPoints<4>& relative, const Span& span) const {
-  if (!has_plane_) return false;
+double distanceBound(const Superellipsoid& body, const Vector3& relative) {
+  const Vector3 normal = directionFrom(body, relative);
+  return normal.squaredNorm() > 0.5 ? normal.dot(relative) - supportBound(body, normal)
+                                    : -std::numeric_limits<double>::infinity();
+}
+
+bool ObstacleProof::Plane::proves(const BernsteinPoints<4>& relative, const Span& span) const {
   const double step = (span.distance_to - span.distance_from) / 3.0;
   for (std::size_t i = 0; i < relative.size(); ++i) {
     const double demanded = span.distance_from + static_cast<double>(i) * step;
-    if (!(plane_normal_.dot(relative[i]) - plane_offset_ >= demanded)) return false;
+    if (!(normal.dot(relative[i]) - offset >= demanded)) return false;
   }
   return true;
 }
 
-void ObstacleProof::placePlane(const Vector3& point, double distance) {
-  const double step = 1e-4 * distance;
-  Vector3 slope;
-  for (int i = 0; i < 3; ++i) {
-    Vector3 moved = point;
-    moved[i] += step;
-    slope[i] = body_.signedDistance(body_.center() + moved) - distance;
-  }
-  const double norm = slope.norm();
-  has_plane_ = norm > 0.0;
-  if (!has_plane_) return;
-  plane_normal_ = slope / norm;
-  plane_offset_ = supportBound(body_, plane_normal_);
+bool ObstacleProof::provesWith(const Vector3& normal, const BernsteinPoints<4>& relative, const Span& span) {
+  if (!(normal.squaredNorm() > 0.5)) return false;
+  const Plane plane{normal, supportBound(body_, normal)};
+  if (!plane.proves(relative, span)) return false;
+  plane_ = plane;
+  return true;
 }
 
 ClearanceFinding ObstacleProof::prove(const BernsteinPoints<4>& relative, double from, double to, double distance_from,
@@ -98,23 +122,28 @@ ClearanceFinding ObstacleProof::prove(const BernsteinPoints<4>& relative, double
 }
 
 ClearanceFinding ObstacleProof::prove(const BernsteinPoints<4>& relative, const Span& span, int depth) {
-  if (isBehindPlane(relative, span)) return {};
+  if (plane_.proves(relative, span)) return {};
   const double demanded = std::max(span.distance_from, span.distance_to);
   Box box;
   for (const Vector3& r : relative) box.include(r);
   if (gaps(box, {-body_.halfExtents(), body_.halfExtents()}).squaredNorm() > demanded * demanded) return {};
 
+  if (provesWith(directionFrom(body_, nearestOfChord(relative)), relative, span)) return {};
+
   const Vector3 middle = curveMiddle(relative);
   const double middle_time = 0.5 * (span.from + span.to);
   const double middle_demand = 0.5 * (span.distance_from + span.distance_to);
-  const double distance = body_.signedDistance(body_.center() + middle);
-  const double error = kRelativeError * (middle.norm() + body_.boundingRadius());
-  if (!(distance + error >= middle_demand)) return {false, false, middle_time};
   double squared_radius = 0.0;
   for (const Vector3& r : relative) squared_radius = std::max(squared_radius, (r - middle).squaredNorm());
-  if (distance - error - std::sqrt(squared_radius) >= demanded) return {};
-  if (distance > 0.0) placePlane(middle, distance);
-  if (isBehindPlane(relative, span)) return {};
+  // The distance is the costliest: not for a curve that is too long for it anyway.
+  if (squared_radius < middle.squaredNorm() || depth == kMaxDepth) {
+    Vector3 normal;
+    const double distance = body_.signedDistance(body_.center() + middle, normal);
+    const double error = kRelativeError * (middle.norm() + body_.boundingRadius());
+    if (!(distance + error >= middle_demand)) return {false, false, middle_time};
+    if (distance - error - std::sqrt(squared_radius) >= demanded) return {};
+    if (provesWith(normal, relative, span)) return {};
+  }
   if (depth == kMaxDepth || ++nodes_ > kMaxNodes) return {false, true, middle_time};
 
   BernsteinPoints<4> left;

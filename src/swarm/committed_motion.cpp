@@ -10,8 +10,8 @@ namespace {
 constexpr double kTimeTolerance = CommittedMotion::kTimeTolerance;
 
 void include(Box& box, const Box& other) {
-  box.include(other.min);
-  box.include(other.max);
+  box.min = box.min.cwiseMin(other.min);
+  box.max = box.max.cwiseMax(other.max);
 }
 
 }  // namespace
@@ -75,12 +75,6 @@ void CommittedMotion::finish() {
   }
   box_ = piece_boxes_[count];
   for (std::size_t g = 0; g * kGroup < count; ++g) include(box_, group_boxes_[g]);
-}
-
-BernsteinPoints<4> CommittedMotion::piece(int k) const {
-  if (k >= pieces_) return {restingPlace(), restingPlace(), restingPlace(), restingPlace()};
-  const Vector3* first = &points_[3 * static_cast<std::size_t>(k)];
-  return {first[0], first[1], first[2], first[3]};
 }
 
 KinematicState CommittedMotion::after(double elapsed) const {

@@ -148,7 +148,7 @@ class ObstacleCheck {
     distance_ = std::max(distance_ - kDistanceTolerance, 0.0);
     const Vector3 relative = motion_.start() - center_;
     const Vector3 gap = (relative.cwiseAbs() - body_.halfExtents()).cwiseMax(0.0);
-    if (gap.squaredNorm() > distance_ * distance_) return true;
+    if (gap.squaredNorm() > distance_ * distance_ || distanceBound(body_, relative) > distance_) return true;
     const double missing = distance_ - body_.signedDistance(body_.center() + relative);
     if (missing > margin) return false;
     if (missing > 0.0) distance_ -= std::min(missing + kUsedMarginTolerance, margin);
@@ -258,6 +258,10 @@ class PairCheck {
     for (double begin = from; begin < to - kTimeTolerance; ++piece) {
       const double knot = offset_ + (piece + 1) * other_.dt();
       const double end = piece < other_.pieces() && knot < to - kTimeTolerance ? knot : to;
+      if (offset_ <= begin && proof_.areApart(motion_.pieceBox(k), other_.pieceBox(piece))) {
+        begin = end;
+        continue;
+      }
       const bool whole = (begin == from && end == to) || k == motion_.pieces();
       BernsteinPoints<4> relative =
           whole ? own : subcurve(own, (begin - from) / motion_.dt(), (end - from) / motion_.dt());

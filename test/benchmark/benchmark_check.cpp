@@ -109,8 +109,8 @@ void noSurroundings(benchmark::State& state) {
 /// Plans of a swarm in the middle of a flight, each against all obstacles and the UAVs whose motions come near.
 class SwarmScene {
  public:
-  explicit SwarmScene(int uavs) : mission_(makeMission(paperScaling(uavs), {}, "paper")), flight_(mission_) {
-    flight_.cycles(60);
+  explicit SwarmScene(const Mission& mission, int cycles) : mission_(mission), flight_(mission_) {
+    flight_.cycles(cycles);
     limits_ = defaultCheckLimits();
     limits_.bounds = FlightBounds(mission_.parameters, nullptr);
     // The plan's bounds hold at knots; in between they may be exceeded a little.
@@ -167,9 +167,7 @@ class SwarmScene {
   CommittedMotion scratch_;
 };
 
-void swarmInFlight(benchmark::State& state) {
-  static std::map<std::int64_t, SwarmScene> swarms;
-  SwarmScene& swarm = swarms.try_emplace(state.range(0), static_cast<int>(state.range(0))).first->second;
+void checkSwarm(benchmark::State& state, SwarmScene& swarm) {
   std::map<CheckReason, int> reasons;
   for (std::size_t i = 0; i < swarm.size(); ++i) ++reasons[swarm.check(i).reason];
   std::size_t next = 0;
@@ -181,11 +179,28 @@ void swarmInFlight(benchmark::State& state) {
   state.counters["neighbours"] = swarm.neighbours();
 }
 
+/// The paper's scenario, 18 s into the flight.
+void paperInFlight(benchmark::State& state) {
+  static std::map<std::int64_t, SwarmScene> swarms;
+  const int uavs = static_cast<int>(state.range(0));
+  const Mission mission = makeMission(paperScaling(uavs), {}, "paper");
+  checkSwarm(state, swarms.try_emplace(uavs, mission, 60).first->second);
+}
+
+/// UAVs that change places across a circle, when all meet in the middle.
+void circleSwapInTheMiddle(benchmark::State& state) {
+  static std::map<std::int64_t, SwarmScene> swarms;
+  const int uavs = static_cast<int>(state.range(0));
+  const Mission mission = makeMission(circleSwap(uavs, 60.0, 1), {}, "circle_swap");
+  checkSwarm(state, swarms.try_emplace(uavs, mission, static_cast<int>(state.range(1))).first->second);
+}
+
 BENCHMARK(planStop);
 BENCHMARK(noSurroundings);
 BENCHMARK(freeFlight);
 BENCHMARK(crowd);
-BENCHMARK(swarmInFlight)->Arg(16)->Arg(64)->Arg(256);
+BENCHMARK(paperInFlight)->Arg(16)->Arg(64)->Arg(256);
+BENCHMARK(circleSwapInTheMiddle)->Args({12, 20})->Args({12, 28})->Args({12, 36});
 
 }  // namespace
 }  // namespace swarm_planner

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kSample = 1e-3;  // [s]
 constexpr double kEpoch = 1e6;    // [s]
+constexpr double kDeep = -0.3;    // how much worse it gets after that does not matter [m]
 
 Trajectory randomPlan(Random& random, double speed, double epoch) {
   const KinematicState start{random.vector(-3.0, 3.0), random.uniform(0.0, speed) * random.direction(),
@@ -115,7 +116,9 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
   const double at_start = clearance(0.0);
   const double margin = std::min(std::max(at_start, 0.0), obstacle.margin);
   SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < obstacle.margin};
-  for (double time = 0.0; time <= motion.duration() + scene.limits.look_ahead; time += kSample) {
+  const bool stands = obstacle.body->velocity().isZero(0.0) && obstacle.growth_rate == 0.0;
+  const double end = motion.duration() + (stands ? kSample : scene.limits.look_ahead);
+  for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
     // Far away the box about the body will do.
     const Vector3 moved = (time + age) * obstacle.body->velocity();
     const double reach = result.slack + margin + obstacle.least_distance + obstacle.growth_rate * (time + age);
@@ -143,8 +146,8 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const CommittedMotion& ot
   while (margin > 0.0 && gauge(apart(0.0), margin) < 1.0) margin -= 1e-5;
   margin = std::max(margin, 0.0);
   SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, used};
-  for (double time = 0.0; time <= std::max(scene.motion.duration(), other.duration() - lag) + kSample;
-       time += kSample) {
+  const double end = std::max(scene.motion.duration(), other.duration() - lag) + kSample;
+  for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
     const double slack = (gauge(apart(time), margin) - 1.0) * (std::min(horizontal, vertical) + margin);
     if (slack < result.slack) {
       result.slack = slack;

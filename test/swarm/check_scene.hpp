@@ -44,7 +44,7 @@ class CheckScene {
 /// The least clearance beyond what the rule of plan_check.hpp demands, by samples 1 ms apart until the end of the
 /// look-ahead: obstacles in metres, pairs in metres along the shorter semi-axis. Computed from the rule as it is
 /// stated, with none of the check's code but CommittedMotion::after. `used_margin`: whether a start had less than
-/// all of it.
+/// all of it. Where it gets 0.3 m too small the rest is left out.
 struct SampledSlack {
   double slack = 0.0;
   double time = 0.0;  ///< of the least [s]

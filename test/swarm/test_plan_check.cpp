@@ -87,25 +87,28 @@ TEST(PlanCheck, TellsTouchingFromCuttingIn) {
   Random random(3);
   int touching = 0;
   int accepted = 0;
-  for (int n = 0; n < 1000; ++n) {
+  int undecided = 0;
+  for (int n = 0; n < 600; ++n) {
     CheckScene scene;
     scene.planRandomly(random, 4.0);
     scene.addRandomObstacle(random, random.uniform(0.6, 0.8));
     PredictedObstacle& obstacle = scene.surroundings.obstacles[0];
     const SampledSlack sampled = sampledSlack(scene);
     // At the start the margin would count as used up.
-    if (sampled.slack < -0.3 || sampled.used_margin || sampled.time == 0.0) continue;
+    if (sampled.slack <= -0.25 || sampled.used_margin || sampled.time == 0.0) continue;
     obstacle.least_distance += sampled.slack - 1e-4;  // 0.1 mm to spare
     if (sampledSlack(scene).used_margin) continue;
     ++touching;
-    accepted += scene.check().accepted() ? 1 : 0;
+    const CheckVerdict verdict = scene.check();
+    accepted += verdict.accepted() ? 1 : 0;
+    undecided += verdict.undecided ? 1 : 0;
     obstacle.least_distance += 2e-4;
     if (sampledSlack(scene).used_margin) continue;
     ASSERT_FALSE(scene.check().accepted()) << n;
   }
-  std::printf("  0.1 mm to spare: accepted %d of %d\n", accepted, touching);
+  std::printf("  0.1 mm to spare: accepted %d of %d, undecided %d\n", accepted, touching, undecided);
   EXPECT_GT(touching, 200);
-  EXPECT_GT(accepted, 0.95 * touching);
+  EXPECT_GT(accepted, 0.9 * touching);
 }
 
 TEST(PlanCheck, CatchesAnObstacleMovedByFiveCentimetres) {
@@ -478,6 +481,19 @@ TEST(SupportBound, LiesBeyondTheBodyAndTouchesIt) {
       ASSERT_GE(bound, normal.dot(randomOffset(random, body, 1.0)) - 1e-11 * scale);
     }
   }
+}
+
+TEST(DistanceBound, IsNeverAboveTheDistanceAndExactBesideASphere) {
+  Random random(10);
+  for (int n = 0; n < 3000; ++n) {
+    const Superellipsoid body = randomBody(random, 0.05, 5.0);
+    const Vector3 u = randomOffset(random, body, random.logUniform(1.0, 100.0));
+    const double distance = body.signedDistance(body.center() + u);
+    ASSERT_LE(distanceBound(body, u), distance + 1e-9 * (distance + body.boundingRadius()));
+    ASSERT_GE(distanceBound(body, u), u.norm() - 2.0 * body.boundingRadius());
+  }
+  const Superellipsoid sphere(1, Vector3::Zero(), Vector3::Ones(), Vector3::Constant(2.0), 0.4, Vector3::Zero());
+  EXPECT_NEAR(distanceBound(sphere, Vector3(0.0, 0.0, 3.0)), 2.0, 1e-9);
 }
 
 TEST(CommittedMotion, IsItsPlanThenItsStopThenRest) {

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <limits>
+
 #include "swarm_planner/obstacles/superellipsoid.hpp"
 #include "swarm_planner/problem/segment.hpp"
 #include "swarm_planner/swarm/bernstein.hpp"
@@ -19,12 +21,17 @@ struct ClearanceFinding {
 /// body's axes, for every l > 0; l is the one with sum s_i = 1, where both are equal.
 double supportBound(const Superellipsoid& body, const Vector3& n);
 
+/// At most the distance from a point, relative to the body's centre, to the body [m]: cheap, and close to it from afar.
+double distanceBound(const Superellipsoid& body, const Vector3& relative);
+
 /// Proves that curves keep a metric distance from an obstacle, by means that are independent of how plans are made:
 ///  - the box around the body and the one around the curve;
 ///  - the distance to a set changes by 1 m per metre at most: Superellipsoid::signedDistance at a point of the curve,
 ///    a lower bound, minus the radius about it that holds the control points;
-///  - a plane n . x = supportBound(n) has the body behind it, whatever n: the distances of the control points from it
-///    bound the curve's. n is the slope of signedDistance; the last plane is tried again first.
+///  - a plane n . x = supportBound(n) has the body behind it, whatever n of length 1: the distances of the control
+///  points
+///    from it bound the curve's. n is the last one that served, one guessed from the radii, or the slope of the
+///    distance.
 /// What none of them decides is halved, up to a depth and a number of pieces; the rest is not clear.
 class ObstacleProof {
  public:
@@ -41,15 +48,19 @@ class ObstacleProof {
     double from, to;                    ///< [s]
     double distance_from, distance_to;  ///< to keep [m]
   };
+  /// The body lies in normal . r <= offset; the first one proves nothing.
+  struct Plane {
+    Vector3 normal = Vector3::Zero();
+    double offset = std::numeric_limits<double>::infinity();  ///< [m]
+
+    bool proves(const BernsteinPoints<4>& relative, const Span& span) const;
+  };
   ClearanceFinding prove(const BernsteinPoints<4>& relative, const Span& span, int depth);
-  bool isBehindPlane(const BernsteinPoints<4>& relative, const Span& span) const;
-  void placePlane(const Vector3& point, double distance);
+  bool provesWith(const Vector3& normal, const BernsteinPoints<4>& relative, const Span& span);
 
   const Superellipsoid& body_;
   int nodes_ = 0;  ///< curves looked at so far
-  bool has_plane_ = false;
-  Vector3 plane_normal_ = Vector3::Zero();
-  double plane_offset_ = 0.0;  ///< [m]
+  Plane plane_;    ///< the last that proved something
 };
 
 /// Proves that two UAVs keep out of the pair ellipsoid, eq. (14), by the Bernstein coefficients of the squared norm of

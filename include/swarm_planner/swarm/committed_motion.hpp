@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "swarm_planner/problem/segment.hpp"
 #include "swarm_planner/swarm/bernstein.hpp"
@@ -43,7 +44,11 @@ class CommittedMotion {
   bool isFinite() const { return finite_; }
 
   /// Control points of piece k; those of the rest are all the same.
-  BernsteinPoints<4> piece(int k) const;
+  BernsteinPoints<4> piece(int k) const {
+    if (k >= pieces_) return {restingPlace(), restingPlace(), restingPlace(), restingPlace()};
+    const Vector3* first = &points_[3 * static_cast<std::size_t>(k)];
+    return {first[0], first[1], first[2], first[3]};
+  }
   /// The state `elapsed` seconds after the epoch; before it the first piece is followed back.
   KinematicState after(double elapsed) const;
   /// The state at absolute time `t` [s].
