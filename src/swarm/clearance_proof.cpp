@@ -39,21 +39,39 @@ Vector3 toWorld(const Superellipsoid& body, const Vector3& u) {
   return Vector3(c * u.x() - s * u.y(), s * u.x() + c * u.y(), u.z());
 }
 
-/// The point of a curve's chord that is nearest to the origin: where a straight flight passes.
-Vector3 nearestOfChord(const BernsteinPoints<4>& points) {
+/// The parameter at which the chord of a curve is nearest to the origin: where a nearly straight flight passes.
+double nearestParameter(const BernsteinPoints<4>& points) {
   const Vector3 chord = points[3] - points[0];
   const double squared_length = chord.squaredNorm();
-  if (!(squared_length > 0.0)) return points[0];
-  return points[0] + std::min(std::max(-points[0].dot(chord) / squared_length, 0.0), 1.0) * chord;
+  if (!(squared_length > 0.0)) return 0.5;
+  return std::min(std::max(-points[0].dot(chord) / squared_length, 0.0), 1.0);
+}
+
+Vector3 curvePoint(const BernsteinPoints<4>& p, double s) {
+  const double r = 1.0 - s;
+  return r * r * r * p[0] + 3.0 * r * s * (r * p[1] + s * p[2]) + s * s * s * p[3];
 }
 
 /// A direction in which the body, taken for something between an ellipsoid and a box, is left behind; zero inside.
 Vector3 directionFrom(const Superellipsoid& body, const Vector3& point) {
-  constexpr double kInner = 0.6;
   const Vector3 in_body = toBody(body, point);
-  const Vector3 inner = kInner * body.radii();
+  // About the corner of the largest box inside, 3^(-1/p) of the radii.
+  const Vector3 inner = body.radii() - 0.85 * body.radii().cwiseQuotient(body.exponents());
   const Vector3 away = in_body - in_body.cwiseMax(-inner).cwiseMin(inner);
   return toWorld(body, away.normalized());
+}
+
+/// A normal for a plane between the body and a curve: from where the curve's chord passes. For a long one turned so
+/// that the curve does not come closer to the plane before or after.
+Vector3 guessNormal(const Superellipsoid& body, const BernsteinPoints<4>& points, bool is_long) {
+  const double s = nearestParameter(points);
+  const Vector3 normal = directionFrom(body, curvePoint(points, s));
+  const Vector3 chord = points[3] - points[0];
+  if (!is_long || !(chord.squaredNorm() > 0.0)) return normal;
+  double along = normal.dot(chord) / chord.squaredNorm();
+  if (s == 0.0) along = std::min(along, 0.0);
+  if (s == 1.0) along = std::max(along, 0.0);
+  return (normal - along * chord).normalized();
 }
 
 }  // namespace
@@ -128,15 +146,16 @@ ClearanceFinding ObstacleProof::prove(const BernsteinPoints<4>& relative, const 
   for (const Vector3& r : relative) box.include(r);
   if (gaps(box, {-body_.halfExtents(), body_.halfExtents()}).squaredNorm() > demanded * demanded) return {};
 
-  if (provesWith(directionFrom(body_, nearestOfChord(relative)), relative, span)) return {};
-
   const Vector3 middle = curveMiddle(relative);
-  const double middle_time = 0.5 * (span.from + span.to);
-  const double middle_demand = 0.5 * (span.distance_from + span.distance_to);
   double squared_radius = 0.0;
   for (const Vector3& r : relative) squared_radius = std::max(squared_radius, (r - middle).squaredNorm());
-  // The distance is the costliest: not for a curve that is too long for it anyway.
-  if (squared_radius < middle.squaredNorm() || depth == kMaxDepth) {
+  const bool is_long = squared_radius > middle.squaredNorm();
+  if (provesWith(guessNormal(body_, relative, is_long), relative, span)) return {};
+
+  const double middle_time = 0.5 * (span.from + span.to);
+  const double middle_demand = 0.5 * (span.distance_from + span.distance_to);
+  // The distance is the costliest: not for a curve that is too long for it and not too close there.
+  if (!is_long || body_.distanceLowerBound(body_.center() + middle) <= demanded) {
     Vector3 normal;
     const double distance = body_.signedDistance(body_.center() + middle, normal);
     const double error = kRelativeError * (middle.norm() + body_.boundingRadius());
