@@ -89,6 +89,7 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "CHANNELS", s.channels, "output components of a block");
   define(out, "POINTS", layout.points, "channels times stages");
   define(out, "POINTS_PADDED", layout.points_padded);
+  define(out, "TILES", layout.points_padded / (2 * kWidth), "parts of a block's outputs that are computed as one");
   define(out, "RESPONSE_PADDED", roundUp(d.horizon * s.block_inputs, kWidth));
   define(out, "ROW_SLOTS", std::max(layout.row_slots, kWidth));
   define(out, "GROUPS", std::max(layout.groups, 1));

@@ -231,11 +231,13 @@ static void qpc_remove(qpc_solver* s, int i) {
   s->active_count = last;
 }
 
-/* output = free_output + sum over the working set of multiplier times the tables' columns. */
-static void qpc_update_outputs(const qpc_tables* t, qpc_solver* s) {
+/* output = free_output + sum over the working set of multiplier times the tables' columns; all of it, or the listed
+   tiles. */
+static void qpc_update_outputs(const qpc_tables* t, qpc_solver* s, int all) {
   const int n = s->active_count;
 #if QPC_ALIGNED
-  for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_TILE * QPC_WIDTH) {
+  for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_TILE_POINTS) {
+    if (!all && !s->listed_tile[j / QPC_TILE_POINTS]) continue;
     qpc_vector sum[QPC_BLOCKS][QPC_TILE];
     for (int b = 0; b < QPC_BLOCKS; ++b) {
       for (int l = 0; l < QPC_TILE; ++l) {
@@ -255,6 +257,7 @@ static void qpc_update_outputs(const qpc_tables* t, qpc_solver* s) {
     }
   }
 #else
+  (void)all;
   for (int j = 0; j < QPC_BLOCKS * QPC_POINTS_PADDED; ++j) s->output[j] = s->free_output[j];
   for (int i = 0; i < n; ++i) {
     for (int c = 0; c < QPC_COMPONENTS; ++c) {

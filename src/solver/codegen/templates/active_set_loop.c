@@ -188,13 +188,24 @@ static int qpc_start(const qpc_tables* t, qpc_solver* s) {
   return s->active_count == 0 || qpc_settle(s) ? QPC_SOLVED : QPC_CAP;
 }
 
+/* The most violated row, or -1 with all outputs up to date. */
+static int qpc_find_violated(const qpc_tables* t, qpc_solver* s, double tolerance, double* violation) {
+  if (s->listed_count > 0 || s->listed_bounds) {
+    qpc_update_outputs(t, s, 0);
+    const int id = qpc_scan_listed(s, tolerance, violation);
+    if (id >= 0) return id;
+  }
+  qpc_update_outputs(t, s, 1);
+  return qpc_scan(s, tolerance, violation);
+}
+
 static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) {
   double violation;
   int refinements = 0;
+  s->listed_count = s->listed_bounds = 0;
   int status = qpc_start(t, s);
   while (status == QPC_SOLVED) {
-    qpc_update_outputs(t, s);
-    const int id = qpc_scan(s, tolerance, &violation);
+    const int id = qpc_find_violated(t, s, tolerance, &violation);
     if (id >= 0) {
       qpc_row row;
       if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;

@@ -28,7 +28,8 @@
 typedef double qpc_vector __attribute__((vector_size(QPC_WIDTH * 8)));
 typedef double qpc_vector_memory __attribute__((vector_size(QPC_WIDTH * 8), aligned(8), may_alias));
 typedef int64_t qpc_mask __attribute__((vector_size(QPC_WIDTH * 8)));
-#define QPC_TILE (QPC_WIDTH == 8 && QPC_POINTS_PADDED % 32 == 0 ? 4 : 2) /* vectors per block that are summed in registers; QPC_POINTS_PADDED is a multiple */
+#define QPC_TILE_POINTS (QPC_POINTS_PADDED / QPC_TILES) /* points of a block that are summed in registers */
+#define QPC_TILE (QPC_TILE_POINTS / QPC_WIDTH)
 #define QPC_LOAD(pointer) (*(const qpc_vector_memory*)(pointer))
 #define QPC_STORE(pointer, value) (*(qpc_vector_memory*)(pointer) = (value))
 #define QPC_BROADCAST(value) ((value) - (qpc_vector){0})

@@ -84,6 +84,11 @@ typedef struct {
   int32_t group_rows[QPC_GROUPS];
   int32_t group_output[QPC_GROUPS];
   int32_t group_index[QPC_GROUPS];
+  double group_violation[QPC_GROUPS][8];             /* by lane, as the last scan of all rows found it */
+  int32_t listed_count;                              /* groups of rows that were violated then, */
+  int32_t listed[QPC_GROUPS];
+  int32_t listed_bounds;                             /* whether bounds were, */
+  uint8_t listed_tile[QPC_TILES];                    /* and which parts of a block's outputs they need */
   int32_t scaled;                                    /* some rows are scaled for this solve, by row_scale */
   double row_scale[QPC_ROW_SLOTS];
   double free_output[QPC_BLOCKS * QPC_POINTS_PADDED];
