@@ -38,6 +38,19 @@ TEST_P(GeneratedSolverTest, FindsTheKnownOptimum) {
   }
 }
 
+TEST_P(GeneratedSolverTest, TheObjectiveIsThatOfTheDefinition) {
+  std::mt19937_64 random(16);
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    Trajectory plan;
+    plan.dt = known->qp.model.dt;
+    for (Vector3& jerk : plan.jerks) jerk = 3.0 * randomVector(random);
+    rollOut(known->qp.start, plan);
+    const double expected = objective(known->qp, plan.jerks);
+    EXPECT_NEAR(known->qp.objective(plan), expected, 1e-12 * (1.0 + std::abs(expected)));
+  }
+}
+
 TEST_P(GeneratedSolverTest, AgreesWithTheReference) {
   std::mt19937_64 random(12);
   InteriorPointSolver reference;

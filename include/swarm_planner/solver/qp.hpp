@@ -120,6 +120,8 @@ struct Qp {
   /// Appends a curvature term; false if there is no room for it.
   bool addCurvature(int stage, const Vector3& n, double weight);
   int rowCount() const;
+  /// Objective of a plan, a roll-out of its jerks from `start`, with every row's slack at its best.
+  double objective(const Trajectory& plan) const;
   /// Hessian in the position of stage 1..N: weights along the axes plus curvature terms.
   Matrix3 positionHessian(int stage) const;
 };
