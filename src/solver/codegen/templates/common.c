@@ -61,6 +61,17 @@ static int qpc_is_finite(double value) {
   return (view.bits & 0x7ff0000000000000u) != 0x7ff0000000000000u;
 }
 
+static double qpc_magnitude(double value) { return value < 0.0 ? -value : value; }
+
+/* Square root of a number that is not negative, to a few digits. */
+static double qpc_root(double square) {
+  double root = 1.0;
+  while (square > 0.0 && root * root < square) root *= 2.0;
+  while (square > 0.0 && root * root > 4.0 * square) root *= 0.5;
+  for (int i = 0; i < 3 && square > 0.0; ++i) root = 0.5 * (root + square / root);
+  return square > 0.0 ? root : 0.0;
+}
+
 static void qpc_clear(double* first, int count) {
   for (int i = 0; i < count; ++i) first[i] = 0.0;
 }

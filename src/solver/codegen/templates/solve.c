@@ -99,16 +99,20 @@ static void qpc_clear_result(qpc_solver* s) {
   s->active_count = 0;
 }
 
+/* The method that was asked for, and the other one where that meets its cap. */
 static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
   int status = QPC_CAP;
-  if (s->wanted_method == QPC_ACTIVE_SET) {
+  for (int attempt = 0; attempt < 2 && status == QPC_CAP; ++attempt) {
+    const int active_set = (s->wanted_method == QPC_ACTIVE_SET) == (attempt == 0);
+    s->method = active_set ? QPC_ACTIVE_SET : QPC_INTERIOR_POINT;
+    s->iterations = 0;
+    if (!active_set) {
+      status = qpc_interior_point(t, s, tolerance);
+      continue;
+    }
     status = qpc_active_set(t, s, tolerance);
     for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
     if (status == QPC_SOLVED) qpc_recover(t, s);
-  }
-  if (status == QPC_CAP) {
-    s->method = QPC_INTERIOR_POINT;
-    status = qpc_interior_point(t, s, tolerance);
   }
   return status;
 }

@@ -106,7 +106,11 @@ typedef struct {
   double offset[QPC_ACTIVE_PADDED];
   double direction[QPC_ACTIVE_PADDED];
   double column[QPC_ACTIVE_PADDED];
-  double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED];
+  double gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED]; /* of the working set, as if all rows were rigid */
+  double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED]; /* of gram + flexibility */
+  int32_t ignored_count;                             /* rows hidden from the scan: violated by less than matters */
+  int32_t ignored_id[QPC_ACTIVE_PADDED];
+  double ignored_offset[QPC_ACTIVE_PADDED];
   /* Interior point: the rows and bounds that it was given, and their variables. */
   int32_t ip_count;
   int32_t ip_id[QPC_ENTRIES];
@@ -115,14 +119,18 @@ typedef struct {
   double ip_normal[QPC_COMPONENTS][QPC_ENTRIES];
   double ip_offset[QPC_ENTRIES];
   double ip_quadratic[QPC_ENTRIES];
+  double ip_self[QPC_ENTRIES];                       /* the row's own Gram entry */
+  double ip_give;                                    /* proximal: how much rows give way, relative to ip_self */
+  double ip_reach;                                   /* a distance in the metric of the Hessian, squared */
+  uint8_t ip_hard[QPC_ENTRIES];
   double ip_variable[4][QPC_ENTRIES];                /* multiplier, room, slack (0: hard), reserve (hard: 1) */
   double ip_step[4][QPC_ENTRIES];
-  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier slack inverse_reserve) */
+  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier (slack inverse_reserve + proximal)) */
   double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
   double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
   double ip_pull[QPC_ENTRIES];                       /* force along the normal */
   double ip_value[QPC_ENTRIES];                      /* n . y of the outputs' step */
-  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room, 0 after the first full step */
+  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room */
   double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
   double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
