@@ -226,28 +226,44 @@ static int qpc_is_row(const qpc_solver* s, int id) {
   return s->row_offset[id] > -QPC_UNBOUNDED;
 }
 
-/* The working set to start from: the quadratic terms, and those of the guessed rows that do not depend on each other.
-   Masked rows are not accepted, which leaves out what was guessed twice. */
-static int qpc_start(const qpc_tables* t, qpc_solver* s) {
+/* Adds a row or quadratic term to the working set, unless it nearly depends on it: then there is no telling its share of
+   the multipliers. 0 if its penalty does not exist. */
+static int qpc_guess(const qpc_tables* t, qpc_solver* s, int id, double lambda) {
   qpc_row row;
+  if (!qpc_load_row(t, s, id, &row)) return 0;
+  const double self = qpc_gram_self(t, &row);
+  const int soft = lambda > row.linear || row.linear <= 0.0;
+  qpc_gram_column(t, s, &row);
+  double curvature = qpc_project(s, self);
+  if (!(curvature > 1e-4 * self)) curvature = 0.0;
+  if (soft) curvature += row.compliance;
+  if (curvature > 0.0) qpc_append(s, &row, lambda, soft, self, curvature);
+  return 1;
+}
+
+/* The working set to start from: the quadratic terms, and the guessed rows. Masked rows are not accepted, which leaves
+   out what was guessed twice. */
+static int qpc_start_from(const qpc_tables* t, qpc_solver* s, int guesses) {
   s->active_count = 0;
-  const int guesses = s->warm_count < 0 ? 0 : s->warm_count > QPC_MAX_ACTIVE ? QPC_MAX_ACTIVE : s->warm_count;
-  for (int i = 0; i < s->quadratic_count + guesses && s->active_count < QPC_MAX_ACTIVE; ++i) {
-    const int is_guess = i >= s->quadratic_count;
-    const int id = is_guess ? s->warm_id[i - s->quadratic_count] : QPC_FIRST_QUADRATIC_ID + i;
-    double lambda = is_guess ? s->warm_multiplier[i - s->quadratic_count] : 0.0;
-    if (is_guess && (!(lambda > 0.0) || !qpc_is_finite(lambda) || !qpc_is_row(s, id))) continue;
-    lambda /= qpc_scale_of(s, id);
-    if (!qpc_load_row(t, s, id, &row)) return QPC_BAD_DATA;
-    const double self = qpc_gram_self(t, &row);
-    const int soft = lambda > row.linear || row.linear <= 0.0;
-    qpc_gram_column(t, s, &row);
-    double curvature = qpc_project(s, self);
-    if (curvature < 0.0) curvature = 0.0;
-    if (soft) curvature += row.compliance;
-    if (curvature > 1e-8 * self) qpc_append(s, &row, lambda, soft, self, curvature);
+  for (int i = 0; i < s->quadratic_count && s->active_count < QPC_MAX_ACTIVE; ++i) {
+    if (!qpc_guess(t, s, QPC_FIRST_QUADRATIC_ID + i, 0.0)) return QPC_BAD_DATA;
+  }
+  for (int i = 0; i < guesses && s->active_count < QPC_MAX_ACTIVE; ++i) {
+    const int id = s->warm_id[i];
+    const double lambda = s->warm_multiplier[i];
+    if (!(lambda > 0.0) || !qpc_is_finite(lambda) || !qpc_is_row(s, id)) continue;
+    if (!qpc_guess(t, s, id, lambda / qpc_scale_of(s, id))) return QPC_BAD_DATA;
   }
   return s->active_count == 0 || qpc_settle(t, s) ? QPC_SOLVED : QPC_CAP;
+}
+
+/* Starts from the guess, or without it if that leads nowhere. */
+static int qpc_start(const qpc_tables* t, qpc_solver* s) {
+  const int guesses = s->warm_count < 0 ? 0 : s->warm_count > QPC_MAX_ACTIVE ? QPC_MAX_ACTIVE : s->warm_count;
+  const int status = qpc_start_from(t, s, guesses);
+  if (guesses == 0 || (status == QPC_SOLVED && qpc_all_finite(s->lambda, s->active_count))) return status;
+  for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+  return qpc_start_from(t, s, 0);
 }
 
 /* Shows the scan the ignored rows again. */
