@@ -130,8 +130,9 @@ class PlannerQp : public ::testing::Test {
     solve();
     ASSERT_EQ(solver_->status, PLANNER_QP_SOLVED);
     const double gap = costOf(problem, *solver_).value - cost.value;
-    // Its gap is that of its own variables; rounding in the recursion, whose terms are those of the cost, comes on top.
-    EXPECT_LE(gap, solver_->gap + rounding + kRecursionRounding * cost.size);
+    // Its gap is that of its own variables. What rounding adds in the recursion, whose terms are those of the cost, and
+    // in the roll-out of its inputs comes on top.
+    EXPECT_LE(gap, solver_->gap + kktOf(problem, *solver_).price + rounding + kRecursionRounding * cost.size);
     EXPECT_GE(gap, -cold_->gap - rounding);
     for (const planner_qp_solver* answer : {solver_.get(), cold_.get()}) {
       least_digits_ = std::max(least_digits_, answer->gap / (1.0 + cost.size));
