@@ -35,8 +35,9 @@ QPC_FUNCTION double qpc_sum(qpc_vector v) {
 QPC_FUNCTION qpc_vector qpc_only(qpc_mask mask, qpc_vector v) { return (qpc_vector)(mask & (qpc_mask)v); }
 
 /* Takes a step, and refreshes what depends on the variables. Returns the sum of the complementarities, which is the
-   duality gap once the residuals have vanished; `residual` is the largest of these, `price` what they all cost. */
-static double qpc_ip_advance(qpc_solver* s, double step, double* residual, double* price) {
+   duality gap once the residuals have vanished; `residual` is the largest of these, `price` what they all cost. From
+   then on rows give way by `give`. */
+static double qpc_ip_advance(qpc_solver* s, double step, double give, double* residual, double* price) {
   qpc_vector gap = {0}, largest = {0}, cost = {0};
   for (int e = 0; e < s->ip_count; e += QPC_WIDTH) {
     qpc_vector v[4];
@@ -46,16 +47,18 @@ static double qpc_ip_advance(qpc_solver* s, double step, double* residual, doubl
     }
     gap += v[QPC_LAMBDA] * v[QPC_ROOM] + v[QPC_SLACK] * v[QPC_RESERVE];
     const qpc_vector inverse_reserve = 1.0 / (QPC_LOAD(&s->ip_quadratic[e]) * v[QPC_SLACK] + v[QPC_RESERVE]);
-    const qpc_vector proximal = QPC_LOAD(&s->ip_self[e]) * s->ip_give;
+    const qpc_vector self = QPC_LOAD(&s->ip_self[e]);
     const qpc_vector r =
-        QPC_LOAD(&s->ip_residual[e]) * (1.0 - step) - proximal * QPC_LOAD(&s->ip_step[QPC_LAMBDA][e]) * step;
+        QPC_LOAD(&s->ip_residual[e]) * (1.0 - step) -
+                         self * QPC_LOAD(&s->ip_step[QPC_LAMBDA][e]) * (s->ip_give * step);
     largest = qpc_maximum(largest, qpc_maximum(r, -r));
     cost += v[QPC_LAMBDA] * qpc_maximum(r, -r);
     QPC_STORE(&s->ip_residual[e], r);
     QPC_STORE(&s->ip_inverse_reserve[e], inverse_reserve);
     QPC_STORE(&s->ip_inverse_room[e],
-              1.0 / (v[QPC_ROOM] + v[QPC_LAMBDA] * (v[QPC_SLACK] * inverse_reserve + proximal)));
+              1.0 / (v[QPC_ROOM] + v[QPC_LAMBDA] * (v[QPC_SLACK] * inverse_reserve + self * give)));
   }
+  s->ip_give = give;
   *price = qpc_sum(cost);
   *residual = 0.0;
   for (int i = 0; i < QPC_WIDTH; ++i) *residual = largest[i] > *residual ? largest[i] : *residual;

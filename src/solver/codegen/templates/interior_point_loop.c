@@ -176,10 +176,6 @@ typedef struct {
   double gap, residual, price, unbalanced;
 } qpc_progress;
 
-static double qpc_ip_distance(const qpc_progress* p) {
-  return p->gap > p->unbalanced + p->price ? p->gap : p->unbalanced + p->price;
-}
-
 /* Predictor and corrector; the length of the step, which is not yet taken. < 0: the recursion has run out of digits. */
 static double qpc_ip_newton(const qpc_tables* t, qpc_solver* s, const qpc_progress* p) {
   double linear, quadratic;
@@ -191,8 +187,9 @@ static double qpc_ip_newton(const qpc_tables* t, qpc_solver* s, const qpc_progre
   affine = affine < 1.0 ? affine : 1.0;
   double left = p->pairs > 0 ? (p->gap + affine * (linear + affine * quadratic)) / p->gap : 0.0;
   left = left > 0.0 ? left * left * left * p->gap : 0.0;
-  /* No closer to the boundary than asked for: from there no step leads on, should a residual be left. */
-  if (left < 0.1 * s->tolerance) left = 0.1 * s->tolerance;
+  /* No closer to the boundary than asked for, or than the residuals are: from there no step leads on. */
+  const double least = 0.1 * (s->tolerance > p->price ? s->tolerance : p->price);
+  if (left < least) left = least;
   const double centre = p->pairs > 0 ? left / p->pairs : 0.0;
   qpc_ip_pulls(s, (qpc_aim){centre, 1});
   qpc_ip_gather(s, (qpc_aim){centre, 1});
@@ -204,7 +201,7 @@ static double qpc_ip_newton(const qpc_tables* t, qpc_solver* s, const qpc_progre
 /* The optimum with the rows that the method was given. */
 static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
   qpc_progress p;
-  double step = 0.0;
+  double step = 0.0, give = s->ip_give;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->ip_output[i] = s->free_output[i];
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = 0.0; /* steps, from here on */
   qpc_order_inputs(s, s->u);
@@ -212,18 +209,19 @@ static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
   p.pairs = qpc_ip_begin(s, &p.gap);
   p.unbalanced = p.gap + qpc_ip_quadratic_cost(s);
   /* No more can be asked than the digits of what the start was away from the optimum; fewer once they have run out. */
-  const double attainable = s->tolerance + (s->ip_give < 1e-9 ? 1e-12 : 1e-9) * p.unbalanced;
+  const double attainable = s->tolerance + (give < 1e-9 ? 1e-12 : 1e-9) * p.unbalanced;
   for (int steps = 0; steps < QPC_IP_MAX_STEPS; ++steps, ++s->iterations) {
-    p.gap = qpc_ip_advance(s, step, &p.residual, &p.price);
-    const double distance = qpc_ip_distance(&p);
-    if (!qpc_is_finite(distance)) return QPC_CAP;
-    if (distance <= s->tolerance && p.residual <= s->tolerance) return QPC_SOLVED;
+    p.gap = qpc_ip_advance(s, step, give, &p.residual, &p.price);
+    s->gap = p.gap + p.unbalanced + p.price;
+    if (!qpc_is_finite(s->gap)) return QPC_CAP;
+    if (s->gap <= s->tolerance && p.residual <= s->tolerance) return QPC_SOLVED;
     step = qpc_ip_newton(t, s, &p);
     if (step < 0.0) break;
+    if (p.gap + p.unbalanced <= p.price) give *= 0.1; /* residuals of rows that depend on each other are what is left */
     qpc_ip_move(t, s, step);
     p.unbalanced *= 1.0 - step;
   }
-  return qpc_ip_distance(&p) <= attainable && p.residual <= attainable ? QPC_SOLVED : QPC_CAP;
+  return s->gap <= attainable && p.residual <= attainable ? QPC_SOLVED : QPC_CAP;
 }
 
 /* Shows the scan all rows again. */

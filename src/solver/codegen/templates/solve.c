@@ -106,6 +106,7 @@ static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
     const int active_set = (s->wanted_method == QPC_ACTIVE_SET) == (attempt == 0);
     s->method = active_set ? QPC_ACTIVE_SET : QPC_INTERIOR_POINT;
     s->iterations = 0;
+    s->gap = 0.0;
     if (!active_set) {
       status = qpc_interior_point(t, s, tolerance);
       continue;

@@ -77,6 +77,7 @@ typedef struct {
   int32_t status;
   int32_t method;
   int32_t iterations;                                /* changes of the active set, or Newton steps */
+  double gap;                                        /* the cost is above its least by no more; active set: 0, exact */
 
   /* Work space. */
   int32_t group_count;
