@@ -36,7 +36,7 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
     : mission_(mission), options_(options), clock_(options.speed), samples_(mission.scenario.uavs.size()) {
   const auto seed = static_cast<std::uint64_t>(mission_.parameters.simulation.seed);
   for (const ScenarioUav& uav : mission_.scenario.uavs) {
-    quads_.emplace_back(mission_.parameters, uav.start, seed + quads_.size());
+    quads_.emplace_back(mission_.parameters, uav.start, seed, quads_.size());
     odometry_.push_back(
         node_.advertise<nav_msgs::Odometry>(nameForUav(options_.odometry_topic, uav.name), kOdometryQueueSize));
   }
