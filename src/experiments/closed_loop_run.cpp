@@ -18,11 +18,6 @@ MeanMax meanMax(const std::vector<double>& samples) {
   return {distribution.mean, distribution.max};
 }
 
-bool isFallback(const UavReport& report) {
-  return report.state == UavState::kFallback || report.reason == Reason::kSolverFailed ||
-         report.reason == Reason::kConstraintsViolated;
-}
-
 }  // namespace
 
 ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed)
@@ -147,7 +142,7 @@ void ClosedLoopRun::record(const CycleReport& report) {
   cycle_ms_.push_back(kSecondsToMilliseconds * report.cycle_time);
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
-    if (isFallback(uav)) ++result_.fallbacks[reasonText(uav.reason)];
+    if (uav.reason != Reason::kNone) ++result_.fallbacks[reasonText(uav.reason)];
     if (uav.sqp_iterations == 0) continue;  // nothing was solved for it
     uav_ms_.push_back(kSecondsToMilliseconds * uav.solve_time);
     sqp_iterations_.push_back(uav.sqp_iterations);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "swarm_planner/experiments/experiment_program.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
 #include "temporary_directory.hpp"
 
 namespace swarm_planner {
@@ -195,6 +196,16 @@ TEST_F(ExperimentProgramTest, TheReportTellsTheDisturbances) {
   EXPECT_EQ(told["velocity_noise_mps"].as<double>(), 0.03);
   EXPECT_EQ(told["position_bias_m"].as<double>(), 0.04);
   EXPECT_EQ(told["wind_mps"].as<double>(), 0.5);
+}
+
+TEST_F(ExperimentProgramTest, OdometryThatIsTooOldKeepsTheSwarmHoveringAndIsTold) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"fly", directory_.file("meeting.yaml"), "--json", json_file, "--latency", "0.6"}), kExperimentDone);
+  const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+  EXPECT_LT(json["path_length_m"].as<double>(), 1e-6);
+  ASSERT_EQ(json["fallbacks"].size(), 1u);
+  EXPECT_EQ(json["fallbacks"][reasonText(Reason::kOdometryStale)].as<int>(), 2 * json["cycles"].as<int>());
+  EXPECT_NE(out_.str().find(reasonText(Reason::kOdometryStale)), std::string::npos) << out_.str();
 }
 
 TEST_F(ExperimentProgramTest, FaultsOfAllFilesAreListedAndNothingIsFlown) {
