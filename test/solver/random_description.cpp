@@ -125,7 +125,13 @@ class RowMaker {
  public:
   RowMaker(const Description& d, const Prediction& prediction, const VectorXd& u, const KnownProblemOptions& options,
            Random& random)
-      : d_(d), prediction_(prediction), u_(u), options_(options), random_(random), force_(VectorXd::Zero(u.size())), hard_(u.size(), 0) {
+      : d_(d),
+        prediction_(prediction),
+        u_(u),
+        options_(options),
+        random_(random),
+        force_(VectorXd::Zero(u.size())),
+        hard_(u.size(), 0) {
     for (const Output& output : d.outputs) components_ = std::max(components_, output.size());
     used_.assign(d.outputs.size(), std::vector<int>(static_cast<std::size_t>(d.horizon + 1), 0));
   }
@@ -184,7 +190,8 @@ class RowMaker {
   bool activate(ProblemData::Row& row, const Functional& f, double value) {
     const Output& output = d_.outputs[static_cast<std::size_t>(row.output)];
     const int copies = options_.duplicates ? 2 : 1;
-    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows) return false;
+    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows)
+      return false;
     if (row.penalty == 0 && options_.independent && !isIndependent(f.gain)) return false;
     double multiplier = random_.uniform(0.1, 5.0) / options_.row_scale;
     row.offset = value;
@@ -237,8 +244,8 @@ std::string randomDescription(Random& random, int number, double row_scale) {
   out << "name: random_" << number << "\nhorizon: " << random.integer(1, 14) << "\nstates: " << states * copies
       << "\ninputs: " << inputs * copies << "\ndynamics: {A: " << text(spread(a)) << ", B: " << text(spread(b))
       << "}\ncost:\n  state: " << text(spread(semidefinite(random, states, density)))
-      << "\n  terminal: " << text(spread(semidefinite(random, states, density))) << "\n  input: "
-      << text(spread(semidefinite(random, inputs, density) + 0.5 * MatrixXd::Identity(inputs, inputs)))
+      << "\n  terminal: " << text(spread(semidefinite(random, states, density)))
+      << "\n  input: " << text(spread(semidefinite(random, inputs, density) + 0.5 * MatrixXd::Identity(inputs, inputs)))
       << "\n  input_linear: true\n";
   if (random.integer(0, 1) == 1) out << "  rate: " << text(spread(semidefinite(random, inputs, 1.0))) << "\n";
   const double square = row_scale * row_scale;

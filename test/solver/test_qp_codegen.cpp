@@ -9,8 +9,8 @@
 
 #include "solver/generated_program.hpp"
 #include "solver/random_description.hpp"
-#include "swarm_planner/solver/codegen/generator.hpp"
 #include "support/random.hpp"
+#include "swarm_planner/solver/codegen/generator.hpp"
 
 namespace swarm_planner {
 namespace codegen {
@@ -19,6 +19,8 @@ namespace {
 /// Inputs of the active set, which is exact; and of the interior-point method, whose gap of 1e-9 in the cost leaves
 /// sqrt(2 * 1e-9 / 0.5) in the inputs, 0.5 being the random problems' least curvature.
 constexpr double kExact = 1e-8, kWithinGap = 6.4e-5;
+/// Where hard rows pin the inputs its gap is 1e-12 of that at the start, which is up to 1e7: sqrt(2 * 1e-5 / 0.5).
+constexpr double kWithinDigits = 6.4e-3;
 constexpr int kSolved = 0, kBadData = 1, kInfeasible = 2;
 constexpr int kInteriorPoint = 1;  ///< method
 
@@ -108,8 +110,7 @@ TEST(QpCodegen, TheSecondMethodAnswersWhereTheFirstMeetsItsCap) {
   Random random(8);
   KnownProblemOptions options;
   options.active = 15;
-  // Its gap may be 1e-12 of that at the start, which is up to 1e7 here: sqrt(2 * 1e-5 / 0.5).
-  constexpr double kWithinDigits = 6.4e-3;
+  int second_method = 0;
   for (int i = 0; i < 10; ++i) {
     options.independent = i % 5 == 4;
     const std::string text = randomDescription(random, i);
@@ -119,10 +120,15 @@ TEST(QpCodegen, TheSecondMethodAnswersWhereTheFirstMeetsItsCap) {
     const std::vector<KnownProblem> problems = makeProblems(description, 40, options, random);
     expectOptimal(program, problems, kWithinDigits, kWithinDigits);
     for (const auto& of_problem : program.solve(dataOf(problems))) {
-      EXPECT_EQ(of_problem[0].method, kInteriorPoint);
+      // The cap allows one change.
+      if (of_problem[0].method != kInteriorPoint) {
+        EXPECT_LE(of_problem[0].iterations, 1);
+      }
       EXPECT_LE(of_problem[0].iterations, 300);
+      second_method += of_problem[0].method == kInteriorPoint ? 1 : 0;
     }
   }
+  EXPECT_GT(second_method, 300);
 }
 
 TEST(QpCodegen, HardRowsThatPinTheInputsAreFollowed) {
@@ -135,7 +141,7 @@ TEST(QpCodegen, HardRowsThatPinTheInputsAreFollowed) {
     SCOPED_TRACE(text);
     const Description description = parseDescription(text);
     const GeneratedProgram program(description, "-O1");
-    expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinGap);
+    expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinDigits);
   }
 }
 
