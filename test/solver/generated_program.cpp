@@ -53,6 +53,14 @@ int main(void) {
       for (int c = 0; c < PREFIX_COMPONENTS; ++c) normal[c] = number();
       if (NAME_add_row(&solver, output, stage, normal, number(), penalty) < 0) return 6;
     }
+    solver.quadratic_count = (int)number();
+    for (int i = 0; i < solver.quadratic_count; ++i) {
+      solver.quadratic_output[i] = (int)number();
+      solver.quadratic_index[i] = (int)number();
+      for (int c = 0; c < PREFIX_COMPONENTS; ++c) solver.quadratic_normal[i][c] = number();
+      solver.quadratic_offset[i] = number();
+      solver.quadratic_weight[i] = number();
+    }
     solver.wanted_method = PREFIX_ACTIVE_SET;
     solver.warm_count = 0;
     NAME_solve_baseline(&tables, &solver);
@@ -133,6 +141,13 @@ std::vector<std::vector<SolverAnswer>> GeneratedProgram::solve(const std::vector
       append(in, row.normal);
       in.push_back(row.offset);
     }
+    in.push_back(static_cast<double>(p.quadratics.size()));
+    for (const ProblemData::Quadratic& term : p.quadratics) {
+      const int first = description_.outputs[static_cast<std::size_t>(term.output)].touchesInput() ? 0 : 1;
+      append(in, {static_cast<double>(term.output), static_cast<double>(term.stage - first)});
+      append(in, term.normal);
+      append(in, {term.offset, term.weight});
+    }
   }
   std::ofstream(folder_ + "/in", std::ios::binary)
       .write(reinterpret_cast<const char*>(in.data()), static_cast<std::streamsize>(in.size() * sizeof(double)));
@@ -158,6 +173,12 @@ std::vector<std::vector<SolverAnswer>> GeneratedProgram::solve(const std::vector
     }
   }
   return answers;
+}
+
+std::string GeneratedProgram::undefinedSymbols(const std::string& compiler) const {
+  run("cd " + folder_ + " && " + compiler + " -std=c99 -Wall -Wextra -pedantic -Werror -c " + description_.name +
+      ".c -o solver.o");
+  return undefinedSymbols();
 }
 
 std::string GeneratedProgram::undefinedSymbols() const {

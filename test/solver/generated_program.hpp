@@ -16,8 +16,14 @@ struct ProblemData {
     std::vector<double> normal;              ///< padded to the solver's components
     double offset = 0.0;
   };
+  struct Quadratic {
+    int output = 0, stage = 0;
+    std::vector<double> normal;
+    double offset = 0.0, weight = 0.0;  ///< 1/2 weight (n . y - offset)^2
+  };
   std::vector<double> x0, u_previous, state_linear, input_linear;
   std::vector<Row> rows;
+  std::vector<Quadratic> quadratics;
 };
 
 struct SolverAnswer {
@@ -42,6 +48,8 @@ class GeneratedProgram {
 
   /// Names that the compiled solver needs from elsewhere; empty if it stands alone.
   std::string undefinedSymbols() const;
+  /// The same with another compiler, warnings being errors. @throws std::runtime_error if it does not take the source
+  std::string undefinedSymbols(const std::string& compiler) const;
   const std::string& folder() const { return folder_; }
 
  private:

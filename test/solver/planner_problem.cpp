@@ -21,13 +21,20 @@ struct State {
 std::array<double, 3> gainsOf(const planner_qp_parameters& model, int output) {
   const double dt = model.dt;
   switch (output) {
-    case PLANNER_QP_OUTPUT_POSITION: return {1.0, 0.0, 0.0};
-    case PLANNER_QP_OUTPUT_CONTROL_POINT_1: return {1.0, dt / 3.0, 0.0};
-    case PLANNER_QP_OUTPUT_CONTROL_POINT_2: return {1.0, 2.0 * dt / 3.0, dt * dt / 6.0};
-    case PLANNER_QP_OUTPUT_VELOCITY: return {0.0, 1.0, 0.0};
-    case PLANNER_QP_OUTPUT_VELOCITY_CONTROL_POINT: return {0.0, 1.0, dt / 2.0};
-    case PLANNER_QP_OUTPUT_ACCELERATION: return {0.0, 0.0, 1.0};
-    default: return {0.0, model.drag, 1.0};
+    case PLANNER_QP_OUTPUT_POSITION:
+      return {1.0, 0.0, 0.0};
+    case PLANNER_QP_OUTPUT_CONTROL_POINT_1:
+      return {1.0, dt / 3.0, 0.0};
+    case PLANNER_QP_OUTPUT_CONTROL_POINT_2:
+      return {1.0, 2.0 * dt / 3.0, dt * dt / 6.0};
+    case PLANNER_QP_OUTPUT_VELOCITY:
+      return {0.0, 1.0, 0.0};
+    case PLANNER_QP_OUTPUT_VELOCITY_CONTROL_POINT:
+      return {0.0, 1.0, dt / 2.0};
+    case PLANNER_QP_OUTPUT_ACCELERATION:
+      return {0.0, 0.0, 1.0};
+    default:
+      return {0.0, model.drag, 1.0};
   }
 }
 
@@ -36,7 +43,9 @@ Vector3 valueOf(const planner_qp_parameters& model, int output, const State& x) 
   return gains[0] * x.p + gains[1] * x.v + gains[2] * x.a;
 }
 
-Vector3 jerkOf(const planner_qp_solver& answer, int k) { return Vector3(answer.u[k][0], answer.u[k][1], answer.u[k][2]); }
+Vector3 jerkOf(const planner_qp_solver& answer, int k) {
+  return Vector3(answer.u[k][0], answer.u[k][1], answer.u[k][2]);
+}
 
 std::array<State, kHorizon + 1> rollOut(const PlannerProblem& problem, const planner_qp_solver& answer) {
   std::array<State, kHorizon + 1> x;
@@ -246,7 +255,9 @@ PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer)
     };
     back(costate, g[at(k)]);
     back(terms, size[at(k)]);
-    const auto slope = [&](const State& c) -> Vector3 { return dt * dt * dt / 6.0 * c.p + dt * dt / 2.0 * c.v + dt * c.a; };
+    const auto slope = [&](const State& c) -> Vector3 {
+      return dt * dt * dt / 6.0 * c.p + dt * dt / 2.0 * c.v + dt * c.a;
+    };
     const Vector3 own = m.jerk * jerkOf(answer, k - 1);
     worst = std::max(worst, (own + slope(costate)).cwiseAbs().maxCoeff());
     largest = std::max(largest, (own.cwiseAbs() + slope(terms)).maxCoeff());

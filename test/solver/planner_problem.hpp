@@ -43,14 +43,14 @@ void load(PlannerProblem& problem, planner_qp_solver& solver);
 /// How far an answer is from the optimum, by conditions that are checked on its inputs and multipliers alone.
 struct PlannerKkt {
   double stationarity = 0.0;  ///< of the Lagrangian's gradient in the inputs, over the size of its terms
-  double rows = 0.0;          ///< violation beyond the slack, and room of rows with a multiplier, over the outputs' size
-  double price = 0.0;         ///< what the rows' errors cost: multipliers times room left, and penalties of violations
-  double multipliers = 0.0;   ///< outside of their range, over the penalty
+  double rows = 0.0;         ///< violation beyond the slack, and room of rows with a multiplier, over the outputs' size
+  double price = 0.0;        ///< what the rows' errors cost: multipliers times room left, and penalties of violations
+  double multipliers = 0.0;  ///< outside of their range, over the penalty
 };
 PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer);
 
-/// Objective of the answer's inputs, states by roll-out and slacks at their best, and the sum of its terms' sizes, which
-/// rounding errors go with.
+/// Objective of the answer's inputs, states by roll-out and slacks at their best, and the sum of its terms' sizes,
+/// which rounding errors go with.
 struct PlannerCost {
   double value = 0.0, size = 0.0;
 };

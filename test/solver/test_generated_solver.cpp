@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 //
 // The solver that flies: wrong answers here are wrong plans.
-#include "swarm_planner/solver/generated_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "known_optimum.hpp"
 #include "reference/interior_point.hpp"
+#include "swarm_planner/solver/generated_solver.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -34,7 +33,8 @@ TEST_P(GeneratedSolverTest, FindsTheKnownOptimum) {
     const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
     ASSERT_EQ(solveGenerated(known->qp, *solution), QpStatus::kSolved) << "trial " << trial;
     const double expected = objective(known->qp, known->solution.jerks);
-    EXPECT_NEAR(objective(known->qp, solution->jerks), expected, 1e-8 * (1.0 + std::abs(expected))) << "trial " << trial;
+    EXPECT_NEAR(objective(known->qp, solution->jerks), expected, 1e-8 * (1.0 + std::abs(expected)))
+        << "trial " << trial;
   }
 }
 
@@ -134,8 +134,7 @@ TEST(GeneratedSolver, SolvesOneAfterTheOtherAsIfEachWereTheFirst) {
   std::mt19937_64 random(13);
   const auto first = std::make_unique<KnownOptimum>(makeKnownOptimum({2, 1, 10}, random));
   const auto second = std::make_unique<KnownOptimum>(makeKnownOptimum({1, 0, 3}, random));
-  GeneratedSolver solver(
-      std::make_shared<GeneratedTables>(std::vector<QpModel>{first->qp.model, second->qp.model}));
+  GeneratedSolver solver(std::make_shared<GeneratedTables>(std::vector<QpModel>{first->qp.model, second->qp.model}));
   auto fresh = std::make_unique<QpSolution>();
   auto used = std::make_unique<QpSolution>();
   for (int repeat = 0; repeat < 3; ++repeat) {

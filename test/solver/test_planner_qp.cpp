@@ -146,7 +146,7 @@ class PlannerQp : public ::testing::Test {
   PlannerKkt kkt_;
   bool fell_back_ = false;
   double least_digits_ = 0.0;  ///< largest gap over the sizes of the cost's terms
-  int interior_points_ = 0;  ///< problems that this method answered itself
+  int interior_points_ = 0;    ///< problems that this method answered itself
 };
 
 TEST_F(PlannerQp, EveryRandomProblemIsSolvedToTheOptimum) {
@@ -166,7 +166,8 @@ TEST_F(PlannerQp, EveryRandomProblemIsSolvedToTheOptimum) {
     }
   }
   std::cout << count << " problems, " << fallbacks << " answered by the second method, "
-            << "gaps up to " << least_digits_ << ", " << interior_points_ << " by the interior point where that was asked for\n";
+            << "gaps up to " << least_digits_ << ", " << interior_points_
+            << " by the interior point where that was asked for\n";
   EXPECT_LT(fallbacks, count / 10);
   EXPECT_LE(least_digits_, 1e-6);
   EXPECT_GT(interior_points_, count - count / 1000);

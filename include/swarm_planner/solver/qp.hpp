@@ -107,7 +107,7 @@ struct QpStage {
 struct Qp {
   QpModel model;
   std::array<OutputGains, kOutputCount> outputs;  ///< the model's
-  Matrix3 axes = Matrix3::Identity();  ///< orthonormal columns, in which the position weights hold
+  Matrix3 axes = Matrix3::Identity();             ///< orthonormal columns, in which the position weights hold
   KinematicState start;
   int curvature_count = 0;
   std::array<QpCurvature, kMaxCurvatures> curvatures;

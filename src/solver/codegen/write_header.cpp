@@ -10,8 +10,8 @@ namespace swarm_planner {
 namespace codegen {
 namespace {
 
-constexpr int kWidth = 8;       // doubles of the widest vector
-constexpr int kFewRows = 8;     // outputs with fewer rows a stage are scanned across the stages
+constexpr int kWidth = 8;    // doubles of the widest vector
+constexpr int kFewRows = 8;  // outputs with fewer rows a stage are scanned across the stages
 
 int roundUp(int n, int to) { return (n + to - 1) / to * to; }
 
@@ -105,7 +105,8 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "GAINS", d.inputs * z);
   define(out, "LOWERS", std::max(1, d.inputs * (d.inputs + 1) / 2));
   define(out, "WEIGHTS", s.components * (s.components + 1) / 2);
-  out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). */\n";
+  out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). "
+         "*/\n";
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     const std::string name = upperCase(d.outputs[o].name);
     define(out, "OUTPUT_" + name, static_cast<int>(o));
@@ -141,7 +142,8 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
     first_stage.push_back(output.touchesInput() ? 0 : 1);
     most_rows.push_back(output.max_rows);
   }
-  out << "/* Appends the row normal . y >= offset on an output's value at a stage; returns its identity (as in active_id\n"
+  out << "/* Appends the row normal . y >= offset on an output's value at a stage; returns its identity (as in "
+         "active_id\n"
          "   and warm_id), or -1 if the stage does not have the output or no more rows. */\n"
          "static inline int qpc_add_row(qpc_solver* s, int output, int stage, const double* normal, double offset,\n"
          "                              int penalty) {\n";
@@ -157,8 +159,7 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     out << "      {";
     for (std::size_t c = 0; c < s.output_block[o].size(); ++c) {
-      out << (c > 0 ? ", " : "")
-          << s.output_block[o][c] * layout.points_padded + s.output_channel[o][c] * d.horizon;
+      out << (c > 0 ? ", " : "") << s.output_block[o][c] * layout.points_padded + s.output_channel[o][c] * d.horizon;
     }
     out << "},\n";
   }

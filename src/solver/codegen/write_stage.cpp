@@ -76,7 +76,8 @@ void meet(LaneEntry& entry, const Expression& value) {
 
 void writeChannels(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* Every channel's value: of the state alone at the next stage, with the input at this one. */\n"
-         "QPC_FUNCTION void qpc_channels(const qpc_tables* t, const qpc_lane* z, const qpc_lane* next, const qpc_lane* u,\n"
+         "QPC_FUNCTION void qpc_channels(const qpc_tables* t, const qpc_lane* z, const qpc_lane* next, const qpc_lane* "
+         "u,\n"
          "                               qpc_lane* channel) {\n  (void)t;\n  (void)z;\n  (void)next;\n  (void)u;\n";
   for (int channel = 0; channel < s.channels; ++channel) {
     LaneSum sum;
@@ -118,7 +119,8 @@ void writeGather(std::ostringstream& out, const Description& d, const Structure&
   out << "  for (int k = 0; k < QPC_HORIZON; ++k) {\n"
          "    qpc_clear(&q[k][0][0], QPC_BLOCK_STATES * QPC_LANES);\n";
   for (int i = 0; i < d.states; ++i) {
-    out << "    q[k]" << brackets(s.state_index[at(i)], s.state_block[at(i)]) << " = s->state_linear[k][" << i << "];\n";
+    out << "    q[k]" << brackets(s.state_index[at(i)], s.state_block[at(i)]) << " = s->state_linear[k][" << i
+        << "];\n";
   }
   if (d.input_linear) {
     out << "    qpc_clear(&r[k][0][0], QPC_BLOCK_INPUTS * QPC_LANES);\n";
@@ -257,11 +259,15 @@ std::string writeEvaluate(const Description& d, const Structure& s) {
       const Output& output = d.outputs[at(block.channels[i].first)];
       for (std::size_t j = 0; j < block.states.size(); ++j) {
         const Expression& entry = output.state(block.channels[i].second, block.states[j]);
-        if (!entry.isZero()) out << "  t->c" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code() << ";\n";
+        if (!entry.isZero())
+          out << "  t->c" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code()
+              << ";\n";
       }
       for (std::size_t j = 0; j < block.inputs.size(); ++j) {
         const Expression& entry = output.input(block.channels[i].second, block.inputs[j]);
-        if (!entry.isZero()) out << "  t->d" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code() << ";\n";
+        if (!entry.isZero())
+          out << "  t->d" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code()
+              << ";\n";
       }
     }
   }

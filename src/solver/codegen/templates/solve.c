@@ -111,8 +111,15 @@ static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
       status = qpc_interior_point(t, s, tolerance);
       continue;
     }
-    status = qpc_active_set(t, s, tolerance);
-    for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+    const int guesses = s->warm_count;
+    for (int start = 0; start < 2 && status == QPC_CAP; ++start) {
+      s->iterations = 0;
+      status = qpc_active_set(t, s, tolerance);
+      for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+      if (guesses <= 0) break;
+      s->warm_count = 0; /* a guess that led astray is not worth the other method */
+    }
+    s->warm_count = guesses;
     if (status == QPC_SOLVED) qpc_recover(t, s);
   }
   return status;
