@@ -146,10 +146,10 @@ void addScalarTerm(std::ostringstream& out, bool& first, const Expression& entry
 
 void writeOrderedInputs(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* Inputs in the caller's order. */\n"
-         "static void qpc_order_inputs(qpc_solver* s, double (*u)[QPC_INPUTS]) {\n"
+         "static void qpc_order_inputs(const double (*input)[QPC_RESPONSE_PADDED], double (*u)[QPC_INPUTS]) {\n"
          "  for (int k = 0; k < QPC_HORIZON; ++k) {\n";
   for (int i = 0; i < d.inputs; ++i) {
-    out << "    u[k][" << i << "] = s->free_input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
+    out << "    u[k][" << i << "] = input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
         << s.input_index[at(i)] << "];\n";
   }
   out << "  }\n}\n\n";

@@ -210,6 +210,7 @@ static void qpc_border(qpc_solver* s, double curvature) {
 /* inverse_gram anew from gram; 0 if an entry depends on those before it. */
 static int qpc_rebuild(qpc_solver* s) {
   const int count = s->active_count;
+  s->delicate = 1;
   s->active_count = 0;
   for (int n = 0; n < count; ++n) {
     qpc_multiply_inverse(s, s->gram[n], s->direction);

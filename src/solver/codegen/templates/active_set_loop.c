@@ -20,6 +20,7 @@ static double qpc_project_carefully(qpc_solver* s, double self) {
   double residual[QPC_ACTIVE_PADDED], step[QPC_ACTIVE_PADDED];
   const int n = s->active_count;
   double last = QPC_UNBOUNDED, curvature = self;
+  s->delicate = 1;
   for (int tries = 0, rebuilt = 0; tries < 8; ++tries) {
     qpc_gram_residual(s, s->column, s->direction, residual);
     curvature = self - qpc_dot(s->column, s->direction, n) - qpc_dot(residual, s->direction, n);
@@ -323,7 +324,7 @@ static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) 
   double violation, last = QPC_UNBOUNDED;
   int refinements = 0;
   s->ignored_count = 0;
-  s->listed_count = s->listed_bounds = 0;
+  s->listed_count = s->listed_bounds = s->delicate = 0;
   int status = qpc_start(t, s);
   while (status == QPC_SOLVED) {
     const int id = qpc_find_violated(t, s, 1e-5 * tolerance, &violation);

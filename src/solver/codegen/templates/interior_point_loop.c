@@ -204,7 +204,7 @@ static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
   double step = 0.0, give = s->ip_give;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->ip_output[i] = s->free_output[i];
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = 0.0; /* steps, from here on */
-  qpc_order_inputs(s, s->u);
+  qpc_order_inputs((const double(*)[QPC_RESPONSE_PADDED])s->free_input, s->u);
   qpc_roll_out(t, s);
   p.pairs = qpc_ip_begin(s, &p.gap);
   p.unbalanced = p.gap + qpc_ip_quadratic_cost(s);

@@ -85,6 +85,7 @@ typedef struct {
   int32_t group_rows[QPC_GROUPS];
   int32_t group_output[QPC_GROUPS];
   int32_t group_index[QPC_GROUPS];
+  int32_t delicate;                                  /* nearly dependent rows were met: see qpc_is_proven */
   double group_violation[QPC_GROUPS][8];             /* by lane, as the last scan of all rows found it */
   int32_t listed_count;                              /* groups of rows that were violated then, */
   int32_t listed[QPC_GROUPS];
@@ -95,6 +96,7 @@ typedef struct {
   double free_output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double free_input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
+  double input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
   int32_t point[QPC_COMPONENTS][QPC_ACTIVE_PADDED];  /* flat place in `output` of each component */
   double normal[QPC_COMPONENTS][QPC_ACTIVE_PADDED];
   double target[QPC_ACTIVE_PADDED];                  /* n . y + flexibility * multiplier = target */
