@@ -72,6 +72,9 @@ struct Description {
   std::uint64_t hash = 0; ///< of everything above but instruction_sets
 };
 
+/// A file's text. @throws DescriptionError if it cannot be read
+std::string readText(const std::string& path);
+
 /// @throws DescriptionError with every fault found
 Description parseDescription(const std::string& yaml_text);
 
