@@ -1,7 +1,7 @@
 /* ---- Interior point: primal-dual, predictor and corrector (Mehrotra). ----
    Every side has room = sign * value + slack - offset >= 0 with its multiplier, and, if it is soft, slack >= 0 with the
-   multiplier reserve = linear + quadratic slack - multiplier. All four are eliminated from Newton's equations. Where the
-   penalty has no linear part, slack = multiplier / quadratic follows, which needs no reserve (it is 0). */
+   multiplier reserve = linear + quadratic slack - multiplier. All four are eliminated from Newton's equations. Where
+   the penalty has no linear part, slack = multiplier / quadratic follows, which needs no reserve (it is 0). */
 
 enum { QPC_LAMBDA, QPC_ROOM, QPC_SLACK, QPC_RESERVE };
 
@@ -186,7 +186,8 @@ static double qpc_set_directions(qpc_solver* s, qpc_aim aim) {
 
 static double qpc_clip(double value, double most) { return value > most ? most : value < -most ? -most : value; }
 
-/* Stores the second-order terms of the predictor, up to `most`, as they mislead where they are great; returns the complementarity where it leads. */
+/* Stores the second-order terms of the predictor, up to `most`, as they mislead where they are great; returns the
+   complementarity where it leads. */
 static double qpc_predict(qpc_solver* s, double step, double most) {
   double sum = 0.0;
   for (int e = 0; e < s->side_count; ++e) {

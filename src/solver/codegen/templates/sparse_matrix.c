@@ -75,7 +75,9 @@ static void qpc_subtract_pull(const qpc_matrices* m, const double* pull, double*
   for (int j = 0; j < QPC_VARIABLES; ++j) result[j] -= pull[QPC_ROWS + j];
   for (int r = 0; r < QPC_ROWS; ++r) {
     const double y = pull[r];
-    for (int k = qpc_matrix_start[r]; k < qpc_matrix_start[r + 1]; ++k) result[qpc_matrix_column[k]] -= m->matrix[k] * y;
+    for (int k = qpc_matrix_start[r]; k < qpc_matrix_start[r + 1]; ++k) {
+      result[qpc_matrix_column[k]] -= m->matrix[k] * y;
+    }
   }
 }
 

@@ -2,8 +2,8 @@
    With d pull = force - weight d value at every place, the optimality conditions become
        [H + bounds' weights, A'; A, -1 / weight] [dx; -dy] = [force of bounds - dual residual; force / weight].
    Rows that cost less so are eliminated: weight a a' goes to H, force a to the right side. Fixed places have the weight
-   1 / regularisation; H and 1 / weight get the regularisation on their diagonals. K is then quasi-definite, has a factor
-   in whatever order, and is not too far from singular. This only shortens steps and leaves a little of the rows'
+   1 / regularisation; H and 1 / weight get the regularisation on their diagonals. K is then quasi-definite, has a
+   factor in whatever order, and is not too far from singular. This only shortens steps and leaves a little of the rows'
    residuals; these are always those of the problem itself. */
 
 /* A row's weight with the regularisation, as a share of that without. */

@@ -76,7 +76,7 @@ typedef struct {
   int32_t side_place[QPC_AT_LEAST_ONE(QPC_SIDES)];
   double side_sign[QPC_AT_LEAST_ONE(QPC_SIDES)];         /* 1: lower, -1: upper */
   double side_offset[QPC_AT_LEAST_ONE(QPC_SIDES)];       /* sign * value + slack >= offset */
-  double side_soft[QPC_AT_LEAST_ONE(QPC_SIDES)];         /* 1: slack and reserve are variables; 0: hard, or without linear part */
+  double side_soft[QPC_AT_LEAST_ONE(QPC_SIDES)];         /* 1: slack and reserve are variables */
   double side_linear[QPC_AT_LEAST_ONE(QPC_SIDES)];
   double side_quadratic[QPC_AT_LEAST_ONE(QPC_SIDES)];
   double side_variable[4][QPC_AT_LEAST_ONE(QPC_SIDES)];  /* multiplier, room, slack, reserve */
