@@ -71,7 +71,8 @@ TEST_P(GeneratedSolverTest, AgreesWithTheReference) {
 /// The known problem with rows that can be recognised: numbered within each stage and output.
 void numberRows(Qp& qp) {
   for (QpStage& stage : qp.stages) {
-    for (int i = 0; i < stage.row_count; ++i) stage.rows[static_cast<std::size_t>(i)].source = 10 + static_cast<RowSource>(i);
+    for (int i = 0; i < stage.row_count; ++i)
+      stage.rows[static_cast<std::size_t>(i)].source = 10 + static_cast<RowSource>(i);
   }
 }
 
@@ -115,7 +116,8 @@ TEST_P(GeneratedSolverTest, AWrongGuessChangesNothing) {
     for (std::int8_t stage = 1; stage <= kHorizon; ++stage) {
       for (RowSource source = 10; source < 13; ++source) {
         warm->active.rows[static_cast<std::size_t>(warm->active.count++)] = {
-            stage, Output::kPosition, source, std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 6.0)(random))};
+            stage, Output::kPosition, source,
+            std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 6.0)(random))};
       }
     }
     ASSERT_EQ(solveGenerated(known->qp, *warm), QpStatus::kSolved);

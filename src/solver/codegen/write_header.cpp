@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
 #include <sstream>
 
 #include "swarm_planner/solver/codegen/generator.hpp"
+#include "write_common.hpp"
 
 namespace swarm_planner {
 namespace codegen {
@@ -14,18 +13,6 @@ constexpr int kWidth = 8;    // doubles of the widest vector
 constexpr int kFewRows = 8;  // outputs with fewer rows a stage are scanned across the stages
 
 int roundUp(int n, int to) { return (n + to - 1) / to * to; }
-
-std::string upperCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
-void define(std::ostringstream& out, const std::string& name, int value, const std::string& comment = "") {
-  out << "#define QPC_" << name << ' ' << value;
-  if (!comment.empty()) out << " /* " << comment << " */";
-  out << '\n';
-}
 
 void findBoundRanges(const Description& d, const Structure& s, Layout& layout) {
   for (int channel = 0; channel < s.channels; ++channel) {
@@ -69,9 +56,7 @@ Layout makeLayout(const Description& d, const Structure& s) {
 
 std::string writeSizes(const Description& d, const Structure& s, const Layout& layout) {
   std::ostringstream out;
-  char hash[32];
-  std::snprintf(hash, sizeof hash, "0x%016llxu", static_cast<unsigned long long>(d.hash));
-  out << "#define QPC_HASH " << hash << " /* of the description; setup compares it with the caller's */\n";
+  writeHash(out, d.hash);
   define(out, "HORIZON", d.horizon, "N");
   define(out, "STATES", d.states);
   define(out, "INPUTS", d.inputs);
@@ -116,17 +101,8 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
     out << "#define QPC_SLOT_" << name << "(index, i) (" << layout.first_slot[o] << " + (index) * "
         << layout.stage_stride[o] << " + (i) * " << layout.row_stride[o] << ")\n";
   }
-  out << "\n/* Penalties. */\n";
-  define(out, "HARD", 0);
-  for (std::size_t i = 0; i < d.penalties.size(); ++i) {
-    define(out, "PENALTY_" + upperCase(d.penalties[i].name), static_cast<int>(i) + 1);
-  }
-  out << "\n/* What set-up may change. */\ntypedef struct {\n";
-  for (const auto& parameter : d.parameters) {
-    out << "  double " << parameter.first << "; /* " << toCode(parameter.second) << " */\n";
-  }
-  if (d.parameters.empty()) out << "  double none;\n";
-  out << "} qpc_parameters;\n";
+  writePenaltyNames(out, d.penalties);
+  writeParameterStruct(out, d.parameters);
   return out.str();
 }
 

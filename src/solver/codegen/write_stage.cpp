@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "swarm_planner/solver/codegen/generator.hpp"
+#include "write_common.hpp"
 
 namespace swarm_planner {
 namespace codegen {
@@ -236,12 +237,8 @@ std::string writeConstants(const Description& d, const Structure& s, const Layou
 
 std::string writeEvaluate(const Description& d, const Structure& s) {
   std::ostringstream out;
-  out << "void qpc_function(default_parameters)(qpc_parameters* p) {\n";
-  for (const auto& parameter : d.parameters) {
-    out << "  p->" << parameter.first << " = " << toCode(parameter.second) << ";\n";
-  }
-  if (d.parameters.empty()) out << "  p->none = 0.0;\n";
-  out << "}\n\n/* The description's numbers for these parameters; what is not assigned is zero. */\n"
+  writeDefaultParameters(out, d.parameters);
+  out << "\n/* The description's numbers for these parameters; what is not assigned is zero. */\n"
          "static void qpc_evaluate(qpc_tables* t, const qpc_parameters* p) {\n  (void)p;\n";
   for (int b = 0; b < s.lanes; ++b) {
     const Block block = b < s.blockCount() ? s.blocks[at(b)] : Block();

@@ -15,7 +15,7 @@
 #define QPC_PASTE_EXPANDED(name, set) QPC_PASTE(name, set)
 #define qpc_function(name) QPC_PASTE_EXPANDED(name, QPC_SET)
 
-#define QPC_FUNCTION static inline __attribute__((always_inline))
+#define QPC_FUNCTION static inline __attribute__((always_inline, unused))
 
 /* Vectors of the instruction set that this object is compiled for. Loads and stores need no alignment. */
 #if defined(__AVX512F__)

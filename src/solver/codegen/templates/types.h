@@ -1,13 +1,3 @@
-/* What solve and setup report. */
-enum {
-  QPC_SOLVED = 0,
-  QPC_BAD_DATA = 1,      /* not finite, or a penalty, count or index out of range: the result is zero */
-  QPC_INFEASIBLE = 2,    /* the hard rows and bounds contradict each other */
-  QPC_CAP = 3,           /* the cap on changes or on active rows was met, and no other method answered */
-  QPC_NOT_CONVEX = 4,    /* setup: the Hessian in the inputs is not positive definite */
-  QPC_WRONG_VERSION = 5  /* setup: the caller was compiled with the header of another description */
-};
-
 /* Which method answered. */
 enum { QPC_ACTIVE_SET = 0, QPC_INTERIOR_POINT = 1 };
 
