@@ -21,8 +21,6 @@
 #define QPC_LEAST_COST 1e-2       /* the gap is relative to the cost, but not to less than this, scaled */
 #define QPC_UNBOUNDED_LEAST 1e299 /* bounds from here on are none */
 
-static double qpc_magnitude(double value) { return value < 0.0 ? -value : value; }
-
 static double qpc_larger(double a, double b) { return a > b ? a : b; }
 
 /* A power of two, about 1 / sqrt(value); of 0: 1. */
@@ -36,14 +34,6 @@ static double qpc_inverse_root(double value) {
   const int exponent = (int)((view.bits >> 52) & 0x7ffu) - 1023;
   view.bits = (uint64_t)(1023 - exponent / 2) << 52;
   return view.number;
-}
-
-/* Square root by Newton's method from a start that is right up to a factor of two. */
-static double qpc_root(double value) {
-  if (!(value > 0.0)) return 0.0;
-  double root = 1.0 / qpc_inverse_root(value);
-  for (int i = 0; i < 6; ++i) root = 0.5 * (root + value / root);
-  return root;
 }
 
 /* H x */
