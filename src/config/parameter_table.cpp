@@ -262,8 +262,27 @@ void addSimulation(TableBuilder& table) {
   table.number(
       "velocity_noise", "m/s", Range::atLeast(0.0), [](P& p) -> double& { return p.simulation.velocity_noise; },
       "standard deviation of each coordinate of the measured velocity");
+  table.number(
+      "position_bias", "m", Range::atLeast(0.0), [](P& p) -> double& { return p.simulation.position_bias; },
+      "length of the constant error of each UAV's measured position, its direction random");
+  table.number(
+      "wind", "m/s", Range::closed(0.0, 30.0), [](P& p) -> double& { return p.simulation.wind; },
+      "standard deviation of each coordinate of the gusts' velocity");
+  table.number(
+      "gust_time", "s", Range::aboveUpTo(0.0, 1000.0), [](P& p) -> double& { return p.simulation.gust_time; },
+      "correlation time of the gusts");
+  table.number(
+      "latency", "s", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.simulation.latency; },
+      "delay of each message of odometry, obstacle tracks and setpoints");
+  table.number(
+      "jitter", "s", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.simulation.jitter; },
+      "further delay of each message, uniform between 0 and this");
+  table.number(
+      "drop", "", Range::closed(0.0, 1.0), [](P& p) -> double& { return p.simulation.drop; },
+      "probability that a message is lost");
   table.wholeNumber(
-      "seed", Range::atLeast(0.0), [](P& p) -> int& { return p.simulation.seed; }, "seed of the sensor noise");
+      "seed", Range::atLeast(0.0), [](P& p) -> int& { return p.simulation.seed; },
+      "seed of noise, bias, gusts, jitter and losses");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 
 #include "number_text.hpp"
@@ -60,6 +61,13 @@ std::string expectedValue(const ParameterEntry& entry, bool or_auto) {
 std::optional<std::string> valueFault(const ParameterEntry& entry, const ParameterValue& value) {
   if (isLegal(entry, value)) return std::nullopt;
   return "found " + foundText(value) + ", expected " + expectedValue(entry, true);
+}
+
+std::optional<std::string> expectedInstead(const std::string& name, const ParameterValue& value) {
+  const ParameterEntry* entry = findParameter(name);
+  if (entry == nullptr) throw std::invalid_argument("there is no parameter \"" + name + "\"");
+  if (isLegal(*entry, value)) return std::nullopt;
+  return expectedValue(*entry, true);
 }
 
 void store(const ParameterEntry& entry, const ParameterValue& value, Parameters& parameters) {

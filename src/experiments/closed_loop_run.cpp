@@ -1,7 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/experiments/closed_loop_run.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "swarm_planner/experiments/kkt_nonzeros.hpp"
 
@@ -9,41 +11,44 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kSecondsToMilliseconds = 1000.0;
+constexpr double kSameInstant = 1e-9;  // [s]
 
 MeanMax meanMax(const std::vector<double>& samples) {
   const Distribution distribution = distributionOf(samples);
   return {distribution.mean, distribution.max};
 }
 
-/// The sensor noise of each UAV and run has a stream of its own.
-std::uint64_t noiseSeed(std::uint64_t run_seed, std::size_t uav) { return (run_seed << 24) + uav; }
-
-bool isFallback(const UavReport& report) {
-  return report.state == UavState::kFallback || report.reason == Reason::kSolverFailed ||
-         report.reason == Reason::kConstraintsViolated;
-}
-
 }  // namespace
 
 ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed)
-    : mission_(mission), planner_(planner), monitor_(mission) {
+    : mission_(mission),
+      planner_(planner),
+      time_(-std::numeric_limits<double>::infinity()),
+      odometry_clock_(mission.parameters.simulation.odometry_rate, mission.parameters.time.cycle_period,
+                      mission.parameters.simulation.latency),
+      track_clock_(mission.parameters.simulation.track_rate, mission.parameters.time.cycle_period,
+                   mission.parameters.simulation.latency),
+      track_link_(mission.parameters.simulation, streamSeed(seed, RandomUse::kTrackLink)),
+      monitor_(mission) {
   const Scenario& scenario = mission.scenario;
+  const SimulationParameters& simulation = mission.parameters.simulation;
   for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
-    vehicles_.emplace_back(mission.parameters, scenario.uavs[i].start, noiseSeed(seed, i));
+    vehicles_.emplace_back(mission.parameters, scenario.uavs[i].start, seed, i);
+    odometry_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kOdometryLink, i));
+    setpoint_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kSetpointLink, i));
   }
   for (const ScenarioObstacle& obstacle : scenario.obstacles) obstacles_at_start_.push_back(makeObstacle(obstacle));
   obstacles_ = obstacles_at_start_;
   samples_.resize(vehicles_.size());
   snapshot_.uavs.resize(vehicles_.size());
-  snapshot_.obstacles.resize(obstacles_.size());
   result_.scenario = scenario.name;
   result_.seed = seed;
   result_.uavs = vehicles_.size();
+  result_.simulation = simulation;
   result_.kkt_nonzeros = kktNonzeros(mission);
 }
 
 RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
-  constexpr double kSameInstant = 1e-9;  // [s]
   const double period = mission_.parameters.time.cycle_period;
   long long cycle = -1;  // the one whose plans begin at t = 0
   long long evaluation = 0;
@@ -51,6 +56,7 @@ RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
     // Both from counters: a sum of periods would drift.
     const double cycle_time = static_cast<double>(cycle) * period;
     const double evaluation_time = static_cast<double>(evaluation) * kEvaluationPeriod;
+    measureBefore(std::min(cycle_time, evaluation_time) - kSameInstant);
     if (cycle_time < evaluation_time - kSameInstant) {
       planCycle(cycle_time, static_cast<double>(cycle + 1) * period, observers);
       ++cycle;
@@ -64,26 +70,71 @@ RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
 }
 
 void ClosedLoopRun::moveTo(double t) {
-  for (QuadSimulator& vehicle : vehicles_) vehicle.advanceTo(t);
+  const bool standing = t <= -mission_.parameters.time.cycle_period;
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    if (standing) {
+      vehicles_[i].resetClock(t);
+    } else {
+      receiveSetpoints(i, t);
+      vehicles_[i].advanceTo(t);
+    }
+  }
   for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i] = obstacles_at_start_[i].movedBy(t);
+  time_ = t;
+}
+
+void ClosedLoopRun::measureBefore(double t) {
+  for (;;) {
+    const double next = std::min(odometry_clock_.next(), track_clock_.next());
+    if (next >= t) return;
+    // An instant that only rounding sets apart from the present one is the present one.
+    if (next > time_ + kSameInstant) moveTo(next);
+    if (odometry_clock_.next() <= next) {
+      for (std::size_t i = 0; i < vehicles_.size(); ++i) odometry_links_[i].send(next, vehicles_[i].measure());
+      odometry_clock_.advance();
+    }
+    if (track_clock_.next() <= next) {
+      std::vector<TrackedObstacle> tracks(obstacles_.size());
+      for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i] = {obstacles_[i], time_};
+      track_link_.send(next, std::move(tracks));
+      track_clock_.advance();
+    }
+  }
+}
+
+void ClosedLoopRun::receiveMeasurements(double now) {
+  for (std::size_t i = 0; i < odometry_links_.size(); ++i) {
+    odometry_links_[i].deliver(
+        now, [this, i](double, const UavMeasurement& measurement) { snapshot_.uavs[i] = measurement; });
+  }
+  track_link_.deliver(now,
+                      [this](double, const std::vector<TrackedObstacle>& tracks) { snapshot_.obstacles = tracks; });
 }
 
 void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObserver*>& observers) {
   moveTo(now);
+  measureBefore(now + kSameInstant);
+  receiveMeasurements(now);
   snapshot_.now = now;
-  for (std::size_t i = 0; i < vehicles_.size(); ++i) snapshot_.uavs[i] = vehicles_[i].measure();
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
-    snapshot_.obstacles[i].shape = obstacles_[i];
-    snapshot_.obstacles[i].stamp = now;
-  }
   const CycleReport& report = planner_.plan(snapshot_, epoch);
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (!report.uavs[i].planned) continue;
-    samplePlan(planner_.committed(i), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
-    if (!vehicles_[i].receive(setpoints_)) ++result_.fallbacks["the vehicle refused the trajectory"];
+    if (report.uavs[i].planned) sendSetpoints(i, now);
   }
   record(report);
   for (RunObserver* observer : observers) observer->onCycle(epoch, report);
+}
+
+void ClosedLoopRun::sendSetpoints(std::size_t uav, double now) {
+  samplePlan(planner_.committed(uav), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
+  setpoint_links_[uav].send(now, setpoints_);
+  receiveSetpoints(uav, now);
+}
+
+void ClosedLoopRun::receiveSetpoints(std::size_t uav, double now) {
+  setpoint_links_[uav].deliver(now, [this, uav](double arrival, const SetpointTrajectory& setpoints) {
+    vehicles_[uav].advanceTo(arrival);
+    if (!vehicles_[uav].receive(setpoints)) ++result_.fallbacks["the vehicle refused the trajectory"];
+  });
 }
 
 void ClosedLoopRun::record(const CycleReport& report) {
@@ -91,7 +142,7 @@ void ClosedLoopRun::record(const CycleReport& report) {
   cycle_ms_.push_back(kSecondsToMilliseconds * report.cycle_time);
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
-    if (isFallback(uav)) ++result_.fallbacks[reasonText(uav.reason)];
+    if (uav.reason != Reason::kNone) ++result_.fallbacks[reasonText(uav.reason)];
     if (uav.sqp_iterations == 0) continue;  // nothing was solved for it
     uav_ms_.push_back(kSecondsToMilliseconds * uav.solve_time);
     sqp_iterations_.push_back(uav.sqp_iterations);

@@ -10,6 +10,8 @@
 #include <numeric>
 #include <sstream>
 
+#include "swarm_planner/config/parameter_io.hpp"
+
 namespace swarm_planner {
 namespace {
 
@@ -31,13 +33,26 @@ std::uint64_t wholeNumber(const std::string& option, const std::string& text, st
   return number;
 }
 
-double positiveNumber(const std::string& option, const std::string& text, bool zero_allowed) {
+/// NaN if `text` is no finite number.
+double numberFrom(const std::string& text) {
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   double number = 0.0;
   const bool read = static_cast<bool>(stream >> number) && stream.peek() == std::istringstream::traits_type::eof();
-  if (!read || !std::isfinite(number) || number < 0.0 || (number == 0.0 && !zero_allowed)) {
-    throw OptionError(option + ": expected a number " + (zero_allowed ? ">= 0" : "> 0") + ", not \"" + text + "\"");
+  return read && std::isfinite(number) ? number : std::numeric_limits<double>::quiet_NaN();
+}
+
+double positiveNumber(const std::string& option, const std::string& text) {
+  const double number = numberFrom(text);
+  if (!(number > 0.0)) throw OptionError(option + ": expected a number > 0, not \"" + text + "\"");
+  return number;
+}
+
+/// A value that `parameter` takes.
+double parameterValue(const std::string& option, const std::string& text, const std::string& parameter) {
+  const double number = numberFrom(text);
+  if (const std::optional<std::string> expected = expectedInstead(parameter, number)) {
+    throw OptionError(option + ": expected " + *expected + ", not \"" + text + "\"");
   }
   return number;
 }
@@ -61,6 +76,16 @@ const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCo
                                                             {"monte_carlo", ExperimentCommand::kMonteCarlo},
                                                             {"scaling", ExperimentCommand::kScaling},
                                                             {"circle_swap", ExperimentCommand::kCircleSwap}};
+
+/// Options that set parameters of the simulation, whose ranges hold.
+const std::map<std::string, std::vector<const char*>> kDisturbances = {
+    {"--noise", {"position_noise", "velocity_noise"}},
+    {"--bias", {"position_bias"}},
+    {"--wind", {"wind"}},
+    {"--latency", {"latency"}},
+    {"--jitter", {"jitter"}},
+    {"--drop", {"drop"}},
+};
 
 /// Walks through the arguments; what an option needs is taken from behind it.
 class Parser {
@@ -152,8 +177,6 @@ void Parser::readOption(const std::string& option) {
     options_.seeds = {wholeNumber(option, value(option), 0, kLargestSeed)};
   } else if (option == "--seeds") {
     options_.seeds = seedRange(option, value(option));
-  } else if (option == "--noise") {
-    options_.noise = positiveNumber(option, value(option), true);
   } else if (option == "--threads") {
     options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
   } else if (option == "--without") {
@@ -161,14 +184,18 @@ void Parser::readOption(const std::string& option) {
     if (what != "avoidance")
       throw OptionError("--without: only \"avoidance\" can be left out so far, not \"" + what + "\"");
     options_.avoidance = false;
+  } else if (const auto disturbance = kDisturbances.find(option); disturbance != kDisturbances.end()) {
+    const std::string text = value(option);
+    for (const char* parameter : disturbance->second) {
+      options_.disturbances[parameter] = parameterValue(option, text, parameter);
+    }
   } else {
     readStudyOption(option);
   }
 }
 
 void Parser::readStudyOption(const std::string& option) {
-  static const std::vector<std::string> kNotYet = {"--joint", "--latency", "--drop",    "--jitter",
-                                                   "--bias",  "--wind",    "--as-paper"};
+  static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
   if (option == "--uavs") {
     requireCommand(option,
                    {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap});
@@ -180,7 +207,7 @@ void Parser::readStudyOption(const std::string& option) {
     scenarios_ = wholeNumber(option, value(option), 1, kMostScenarios);
   } else if (option == "--radius") {
     requireCommand(option, {ExperimentCommand::kCircleSwap});
-    options_.radius = positiveNumber(option, value(option), false);
+    options_.radius = positiveNumber(option, value(option));
   } else if (std::find(kNotYet.begin(), kNotYet.end(), option) != kNotYet.end()) {
     throw OptionError(option + ": not supported yet");
   } else {
@@ -231,13 +258,20 @@ commands:
 options:
   --json FILE          write the results as JSON
   --csv DIR            write states.csv, obstacles.csv, cycles.csv and solves.csv
-  --seed S             seed of the sensor noise and of random scenarios (monte_carlo: of the first one)
+  --seed S             seed of disturbances and of random scenarios (monte_carlo: of the first one)
   --seeds A:B          a run for each seed from A to B
-  --noise SIGMA        standard deviation of odometry [m] and [m/s]
   --without avoidance  negative control: plans ignore obstacles and other UAVs
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text
+
+disturbances, none by default:
+  --noise SIGMA        odometry: standard deviation of each coordinate [m] and [m/s]
+  --bias B             odometry: constant error of each UAV's position, of length B [m] in a random direction
+  --wind W             gusts: standard deviation of the wind on each axis [m/s], 0 to 30
+  --latency S          every message (odometry, obstacle tracks, setpoints) is S later [s], 0 to 10
+  --jitter S           and by a random time from 0 to S more [s], 0 to 10; messages may overtake each other
+  --drop P             every message is lost with this probability, 0 to 1
 
 Exit status: 0 flown, 1 faults in a file or results that cannot be written, 2 wrong command line.
 doc/experiments.md explains every field of the results.

@@ -12,10 +12,7 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
   ParameterMap given;
   if (options.parameter_file) given = parseParameterFile(*options.parameter_file, false, faults);
   faults.throwIfAny();
-  if (options.noise) {
-    given["position_noise"] = *options.noise;
-    given["velocity_noise"] = *options.noise;
-  }
+  for (const auto& [name, value] : options.disturbances) given[name] = value;
   if (options.threads) given["threads"] = *options.threads;
   if (!options.avoidance) given["avoidance"] = false;
   return given;

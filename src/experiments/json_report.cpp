@@ -12,6 +12,18 @@ JsonObject toObject(const Distribution& x) {
   return object;
 }
 
+JsonObject disturbances(const SimulationParameters& simulation) {
+  JsonObject object;
+  object.add("latency_s", simulation.latency)
+      .add("jitter_s", simulation.jitter)
+      .add("drop", simulation.drop)
+      .add("position_noise_m", simulation.position_noise)
+      .add("velocity_noise_mps", simulation.velocity_noise)
+      .add("position_bias_m", simulation.position_bias)
+      .add("wind_mps", simulation.wind);
+  return object;
+}
+
 JsonObject toObject(const RunResult& run) {
   JsonObject fallbacks;
   for (const auto& [reason, count] : run.fallbacks) fallbacks.addCount(reason, count);
@@ -39,7 +51,8 @@ JsonObject toObject(const RunResult& run) {
       .addCount("workspace_violations", static_cast<unsigned>(flown.workspace_violations))
       .add("fallbacks", fallbacks)
       .addCount("deadline_misses", run.deadline_misses)
-      .add("cost", flown.cost);
+      .add("cost", flown.cost)
+      .add("disturbances", disturbances(run.simulation));
   return object;
 }
 

@@ -15,10 +15,10 @@ MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, d
   // S(u) = level lies within the surface S = 1 stretched by the largest factor that an exponent of at least 2 gives.
   const double stretch = std::sqrt(level);
   body.radius_ = stretch * obstacle.boundingRadius() + distance;
-  const Vector3 extent = stretch * obstacle.halfExtents() + Vector3::Constant(distance);
+  body.extent_ = stretch * obstacle.halfExtents() + Vector3::Constant(distance);
   const Vector3 end = obstacle.center() + kHorizon * body.step_;
-  body.box_.min = obstacle.center().cwiseMin(end) - extent;
-  body.box_.max = obstacle.center().cwiseMax(end) + extent;
+  body.box_.min = obstacle.center().cwiseMin(end) - body.extent_;
+  body.box_.max = obstacle.center().cwiseMax(end) + body.extent_;
   return body;
 }
 
@@ -30,9 +30,9 @@ MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal,
   body.scale_ = body.distance_ * Vector3(1.0 / horizontal, 1.0 / horizontal, 1.0 / vertical);
   body.apart_ = apart;
   body.radius_ = std::max(horizontal, vertical);
-  const Vector3 extent(horizontal, horizontal, vertical);
-  body.box_.min = motion.box.min - extent;
-  body.box_.max = motion.box.max + extent;
+  body.extent_ = Vector3(horizontal, horizontal, vertical);
+  body.box_.min = motion.box.min - body.extent_;
+  body.box_.max = motion.box.max + body.extent_;
   return body;
 }
 

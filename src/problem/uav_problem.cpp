@@ -41,7 +41,7 @@ void addBodyViolations(const MovingBody& body, const Trajectory& plan, Violation
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const SegmentPoints relative = relativePoints(body, k, segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt));
-    if (isBeyond(relative, body.radius())) continue;
+    if (isBeyond(body, relative, 0.0)) continue;
     const SegmentClearance segment = segmentClearance(body, k, relative);
     if (segment.clearance >= 0.0) continue;
     for (const Vector3& r : relative) violation.add(segment.half_space.clearance(r));

@@ -3,20 +3,36 @@
 
 #include <ros/transport_hints.h>
 
+#include <utility>
+
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 #include "swarm_planner/ros/track_conversion.hpp"
 
 namespace swarm_planner {
 
-ObstacleSimNode::ObstacleSimNode(const Mission& mission) {
+namespace {
+
+// Between looks for messages that are due [s].
+constexpr double kPublicationPeriod = 0.01;
+
+}  // namespace
+
+ObstacleSimNode::ObstacleSimNode(const Mission& mission)
+    : frame_id_(mission.scenario.frame_id),
+      link_(mission.parameters.simulation,
+            streamSeed(static_cast<std::uint64_t>(mission.parameters.simulation.seed), RandomUse::kTrackLink)) {
   for (const ScenarioObstacle& obstacle : mission.scenario.obstacles) obstacles_.push_back(makeObstacle(obstacle));
-  message_.header.frame_id = mission.scenario.frame_id;
   publisher_ = node_.advertise<ObstacleTrackArray>(kObstacleTracksTopic, kObstacleTracksQueueSize);
   status_subscriber_ = node_.subscribe(kPlannerStatusTopic, kStatusQueueSize, &ObstacleSimNode::receiveStatus, this,
                                        ros::TransportHints().tcpNoDelay());
-  timer_ = node_.createTimer(ros::Duration(1.0 / mission.parameters.simulation.track_rate),
-                             [this](const ros::TimerEvent&) { publish(); });
+  const SimulationParameters& simulation = mission.parameters.simulation;
+  measurement_timer_ =
+      node_.createTimer(ros::Duration(1.0 / simulation.track_rate), [this](const ros::TimerEvent&) { measure(); });
+  if (simulation.latency > 0.0 || simulation.jitter > 0.0) {
+    publication_timer_ =
+        node_.createTimer(ros::Duration(kPublicationPeriod), [this](const ros::TimerEvent&) { publish(); });
+  }
 }
 
 void ObstacleSimNode::receiveStatus(const PlannerStatus& status) {
@@ -24,13 +40,20 @@ void ObstacleSimNode::receiveStatus(const PlannerStatus& status) {
   if (status.started) time_zero_ = toSeconds(status.time_zero);
 }
 
-void ObstacleSimNode::publish() {
+void ObstacleSimNode::measure() {
   const ros::Time now = ros::Time::now();
   const double run_time = time_zero_ ? toSeconds(now) - *time_zero_ : 0.0;
-  message_.header.stamp = now;
-  message_.tracks.clear();
-  for (const Superellipsoid& obstacle : obstacles_) message_.tracks.push_back(toMessage(obstacle.movedBy(run_time)));
-  publisher_.publish(message_);
+  ObstacleTrackArray message;
+  message.header.frame_id = frame_id_;
+  message.header.stamp = now;
+  for (const Superellipsoid& obstacle : obstacles_) message.tracks.push_back(toMessage(obstacle.movedBy(run_time)));
+  link_.send(toSeconds(now), std::move(message));
+  publish();
+}
+
+void ObstacleSimNode::publish() {
+  link_.deliver(toSeconds(ros::Time::now()),
+                [this](double, const ObstacleTrackArray& message) { publisher_.publish(message); });
 }
 
 }  // namespace swarm_planner

@@ -2,7 +2,6 @@
 #include "swarm_planner/ros/quad_sim_node.hpp"
 
 #include <geometry_msgs/TransformStamped.h>
-#include <nav_msgs/Odometry.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/transport_hints.h>
@@ -35,8 +34,12 @@ constexpr double kWarningPeriod = 5.0;
 QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
     : mission_(mission), options_(options), clock_(options.speed), samples_(mission.scenario.uavs.size()) {
   const auto seed = static_cast<std::uint64_t>(mission_.parameters.simulation.seed);
+  const SimulationParameters& simulation = mission_.parameters.simulation;
   for (const ScenarioUav& uav : mission_.scenario.uavs) {
-    quads_.emplace_back(mission_.parameters, uav.start, seed + quads_.size());
+    const std::size_t index = quads_.size();
+    trajectory_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kSetpointLink, index));
+    odometry_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kOdometryLink, index));
+    quads_.emplace_back(mission_.parameters, uav.start, seed, index);
     odometry_.push_back(
         node_.advertise<nav_msgs::Odometry>(nameForUav(options_.odometry_topic, uav.name), kOdometryQueueSize));
   }
@@ -79,10 +82,20 @@ void QuadSimNode::receiveTrajectory(std::size_t uav, const trajectory_msgs::Mult
     return;
   }
   try {
-    if (!quads_[uav].receive(toSetpoints(message))) throw std::invalid_argument("it cannot be flown");
+    trajectory_links_[uav].send(time_, toSetpoints(message));
   } catch (const std::invalid_argument& error) {
     ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: %s", name.c_str(), error.what());
   }
+  deliverTrajectories(uav);
+}
+
+void QuadSimNode::deliverTrajectories(std::size_t uav) {
+  trajectory_links_[uav].deliver(time_, [this, uav](double arrival, const SetpointTrajectory& trajectory) {
+    quads_[uav].advanceTo(arrival);
+    if (quads_[uav].receive(trajectory)) return;
+    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: it cannot be flown",
+                      mission_.scenario.uavs[uav].name.c_str());
+  });
 }
 
 void QuadSimNode::receiveTracks(const ObstacleTrackArray& message) {
@@ -137,22 +150,30 @@ void QuadSimNode::restartClock(double now) {
   steps_ = 0;
   time_ = now;
   next_odometry_ = now;
-  for (QuadSimulator& quad : quads_) quad.resetClock(now);
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    trajectory_links_[uav].clear();
+    odometry_links_[uav].clear();
+    quads_[uav].resetClock(now);
+  }
 }
 
 void QuadSimNode::advance() {
   ++steps_;
   time_ = origin_ + static_cast<double>(steps_) * kStep;
-  for (QuadSimulator& quad : quads_) quad.advanceTo(time_);
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    deliverTrajectories(uav);
+    quads_[uav].advanceTo(time_);
+  }
   clock_.publish(time_);
   if (time_ >= next_odometry_ - 0.5 * kStep) {
     next_odometry_ += 1.0 / mission_.parameters.simulation.odometry_rate;
-    publishOdometry();
+    measure();
   }
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) publishOdometry(uav);
   if (monitor_ && time_ >= *time_zero_) observe();
 }
 
-void QuadSimNode::publishOdometry() {
+void QuadSimNode::measure() {
   std::vector<geometry_msgs::TransformStamped> transforms(quads_.size());
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
     nav_msgs::Odometry message;
@@ -160,7 +181,7 @@ void QuadSimNode::publishOdometry() {
     message.header.frame_id = mission_.scenario.frame_id;
     message.child_frame_id = nameForUav(kBaseLinkFrame, mission_.scenario.uavs[uav].name);
     setPoseAndTwist(quads_[uav].measure(), quads_[uav].state(), message);
-    odometry_[uav].publish(message);
+    odometry_links_[uav].send(time_, message);
 
     transforms[uav].header = message.header;
     transforms[uav].child_frame_id = message.child_frame_id;
@@ -168,6 +189,11 @@ void QuadSimNode::publishOdometry() {
     transforms[uav].transform.rotation = message.pose.pose.orientation;
   }
   broadcaster_.sendTransform(transforms);
+}
+
+void QuadSimNode::publishOdometry(std::size_t uav) {
+  odometry_links_[uav].deliver(
+      time_, [this, uav](double, const nav_msgs::Odometry& message) { odometry_[uav].publish(message); });
 }
 
 void QuadSimNode::observe() {

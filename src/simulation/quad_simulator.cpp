@@ -15,10 +15,19 @@ constexpr double kThrustShare = 0.9;
 /// Least share of the weight that is carried upwards, so that the commanded attitude stays upright.
 constexpr double kMinLift = 0.2;
 
+/// A unit vector, uniform on the sphere.
+Vector3 direction(std::uint64_t seed) { return GaussianNoise(seed).vector(1.0).normalized(); }
+
 }  // namespace
 
-QuadSimulator::QuadSimulator(const Parameters& parameters, const Vector3& start, std::uint64_t seed)
-    : vehicle_(parameters.vehicle), simulation_(parameters.simulation), setpoints_(start), noise_(seed) {
+QuadSimulator::QuadSimulator(const Parameters& parameters, const Vector3& start, std::uint64_t seed, std::size_t index)
+    : vehicle_(parameters.vehicle),
+      simulation_(parameters.simulation),
+      gusts_(simulation_.wind, simulation_.gust_time, streamSeed(seed, RandomUse::kGusts, index)),
+      setpoints_(start),
+      position_noise_(streamSeed(seed, RandomUse::kPositionNoise, index)),
+      velocity_noise_(streamSeed(seed, RandomUse::kVelocityNoise, index)),
+      position_bias_(simulation_.position_bias * direction(streamSeed(seed, RandomUse::kPositionBias, index))) {
   state_.p = start;
   rotor_speeds_ = swarm_planner::rotorSpeeds(vehicle_.mass * vehicle_.gravity, 0.0, 0.0, vehicle_);
 }
@@ -27,25 +36,28 @@ bool QuadSimulator::receive(const SetpointTrajectory& trajectory) { return setpo
 
 void QuadSimulator::advanceTo(double t) {
   if (!std::isfinite(t)) return;
-  if (!clock_set_) {
-    time_ = t;
-    clock_set_ = true;
-  }
+  if (!clock_set_) setClock(t);
   if (t <= time_) return;
   constexpr double kRounding = 1e-9;  // a whole number of steps must not become one more
   const auto steps = std::max<long long>(1, std::llround(std::ceil((t - time_) / simulation_.step - kRounding)));
   const double begin = time_;
   const double dt = (t - begin) / static_cast<double>(steps);
   for (long long step = 1; step <= steps; ++step) {
+    wind_ = gusts_.at(time_);
     control();
-    state_ = stepRungeKutta4(state_, rotor_speeds_, disturbance_, dt, vehicle_);
+    state_ = stepRungeKutta4(state_, rotor_speeds_, externalAcceleration(), dt, vehicle_);
     time_ = step == steps ? t : begin + static_cast<double>(step) * dt;
   }
 }
 
-void QuadSimulator::resetClock(double t) {
+void QuadSimulator::setClock(double t) {
   time_ = t;
   clock_set_ = true;
+  gusts_.resetClock(t);
+}
+
+void QuadSimulator::resetClock(double t) {
+  setClock(t);
   setpoints_.hold(state_.p);
 }
 
@@ -55,7 +67,11 @@ void QuadSimulator::setDisturbance(const Vector3& acceleration) {
 }
 
 Vector3 QuadSimulator::acceleration() const {
-  return dynamics(state_, rotorWrench(rotor_speeds_, vehicle_), disturbance_, vehicle_).v;
+  return dynamics(state_, rotorWrench(rotor_speeds_, vehicle_), externalAcceleration(), vehicle_).v;
+}
+
+Vector3 QuadSimulator::externalAcceleration() const {
+  return disturbance_ + vehicle_.dragOverMass().cwiseProduct(wind_);
 }
 
 double QuadSimulator::thrust() const { return rotorWrench(rotor_speeds_, vehicle_).thrust; }
@@ -64,10 +80,10 @@ UavMeasurement QuadSimulator::measure() {
   UavMeasurement measurement;
   measurement.received = true;
   measurement.stamp = time_;
-  measurement.p = state_.p;
+  measurement.p = state_.p + position_bias_;
   measurement.v = state_.v;
-  if (simulation_.position_noise > 0.0) measurement.p += noise_.vector(simulation_.position_noise);
-  if (simulation_.velocity_noise > 0.0) measurement.v += noise_.vector(simulation_.velocity_noise);
+  if (simulation_.position_noise > 0.0) measurement.p += position_noise_.vector(simulation_.position_noise);
+  if (simulation_.velocity_noise > 0.0) measurement.v += velocity_noise_.vector(simulation_.velocity_noise);
   return measurement;
 }
 

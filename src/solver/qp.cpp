@@ -74,6 +74,33 @@ int Qp::rowCount() const {
   return count;
 }
 
+double Qp::objective(const Trajectory& plan) const {
+  const Matrix3 to_axes = axes.transpose();
+  const Vector3 weights(model.along_weight, model.across_weight, model.across_weight);
+  double smooth = 0.0;
+  double slack = 0.0;
+  double squared_slack = 0.0;
+  for (std::size_t k = 1; k <= kHorizon; ++k) {
+    const QpStage& stage = stages[k];
+    const KinematicState& x = plan.knots[k];
+    smooth += 0.5 * weights.dot((to_axes * x.p).cwiseAbs2()) + stage.position_gradient.dot(x.p) +
+              0.5 * model.velocity_weight * x.v.squaredNorm() + stage.velocity_gradient.dot(x.v) +
+              0.5 * model.jerk_weight * plan.jerks[k - 1].squaredNorm();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
+      const QpRow& row = stage.rows[i];
+      const double lacking = row.d - row.n.dot(outputValue(outputs[static_cast<std::size_t>(row.output)], x));
+      if (lacking <= 0.0) continue;
+      slack += lacking;
+      squared_slack += lacking * lacking;
+    }
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(curvature_count); ++i) {
+    const double along = curvatures[i].n.dot(plan.knots[static_cast<std::size_t>(curvatures[i].stage)].p);
+    smooth += 0.5 * curvatures[i].weight * along * along;
+  }
+  return smooth + model.slack_linear * slack + 0.5 * model.slack_quadratic * squared_slack;
+}
+
 Matrix3 Qp::positionHessian(int stage) const {
   const Vector3 weights(model.along_weight, model.across_weight, model.across_weight);
   Matrix3 hessian = axes * weights.asDiagonal() * axes.transpose();

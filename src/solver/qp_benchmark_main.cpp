@@ -103,8 +103,8 @@ ModeResult run(const RecordedProblems& file, const std::string& path, bool warm,
       continue;
     }
     const std::vector<double> input = solver->input();
-    const double error = std::abs(recordedCost(file, problem, input) - problem.optimal_cost) /
-                         (1.0 + std::abs(problem.optimal_cost));
+    const double error =
+        std::abs(recordedCost(file, problem, input) - problem.optimal_cost) / (1.0 + std::abs(problem.optimal_cost));
     result.worst_relative_error = std::max(result.worst_relative_error, error);
     const double kkt = recordedKktResidual(file, problem, input, solver->multipliers());
     result.worst_kkt_residual = std::max(result.worst_kkt_residual, kkt);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-// qp_codegen SPEC.yaml OUTPUT_DIR: writes NAME.h and NAME.c, a solver for the QP structure that SPEC.yaml describes.
+// qp_codegen SPEC.yaml OUTPUT_DIR: writes NAME.h and NAME.c, a solver for the QP structure that SPEC.yaml describes,
+// with stages or sparse without.
 #include <cstdlib>
 #include <exception>
 #include <fstream>
@@ -26,9 +27,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto description = swarm_planner::codegen::loadDescription(argv[1]);
-    const auto code = swarm_planner::codegen::generate(description);
-    const std::string stem = std::string(argv[2]) + "/" + description.name;
+    const auto code = swarm_planner::codegen::generateFromText(swarm_planner::codegen::readText(argv[1]));
+    const std::string stem = std::string(argv[2]) + "/" + code.name;
     write(stem + ".h", code.header);
     write(stem + ".c", code.source);
   } catch (const std::exception& error) {

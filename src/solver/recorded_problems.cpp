@@ -171,7 +171,8 @@ double recordedCost(const RecordedProblems& file, const RecordedProblem& problem
       cost += 0.5 * (positionWeight(k, n) * dp * dp + velocityWeight(k, n) * dv * dv);
     }
     for (int r = (k - 1) * file.rows; r < k * file.rows; ++r) {
-      const double value = static_cast<double>(problem.offset[at(r)]) - dot3(&problem.normal[at(3 * r)], &s.p[at(3 * k)]);
+      const double value =
+          static_cast<double>(problem.offset[at(r)]) - dot3(&problem.normal[at(3 * r)], &s.p[at(3 * k)]);
       const double slack = std::max(0.0, value);
       cost += recorded::kLinearPenalty * slack + 0.5 * recorded::kQuadraticPenalty * slack * slack;
     }
@@ -189,7 +190,8 @@ double recordedKktResidual(const RecordedProblems& file, const RecordedProblem& 
   double worst = stationarity(file, problem, a, lambda);
   for (int k = 0; k < file.horizon; ++k) {
     const double thrust = static_cast<double>(problem.thrust_offset[at(k)]);
-    worst = std::max(worst, hardRow(thrust - dot3(&problem.thrust_normal[at(3 * k)], &a[at(3 * k)]), lambda.thrust[at(k)]));
+    worst =
+        std::max(worst, hardRow(thrust - dot3(&problem.thrust_normal[at(3 * k)], &a[at(3 * k)]), lambda.thrust[at(k)]));
     for (int i = 0; i < 3; ++i) {
       const double v = s.v[at(3 * k + 3 + i)], limit_v = recorded::kMaxVelocity[i];
       const double input = a[at(3 * k + i)], limit_a = recorded::kMaxAcceleration[i];
@@ -199,7 +201,8 @@ double recordedKktResidual(const RecordedProblems& file, const RecordedProblem& 
                         hardRow(limit_a - input, lambda.acceleration[at(6 * k + 3 + i)])});
     }
     for (int r = k * file.rows; r < (k + 1) * file.rows; ++r) {
-      const double value = dot3(&problem.normal[at(3 * r)], &s.p[at(3 * k + 3)]) - static_cast<double>(problem.offset[at(r)]);
+      const double value =
+          dot3(&problem.normal[at(3 * r)], &s.p[at(3 * k + 3)]) - static_cast<double>(problem.offset[at(r)]);
       worst = std::max(worst, softRow(value, lambda.half_space[at(r)]));
     }
   }

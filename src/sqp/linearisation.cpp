@@ -90,7 +90,7 @@ void findPassage(const MovingBody& body, const Trajectory& iterate, double band,
     const auto i = static_cast<std::size_t>(k);
     passage.relative[i] = relativePoints(body, k, segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt));
     passage.near[i].reset();
-    if (isBeyond(passage.relative[i], body.radius() + band)) continue;
+    if (isBeyond(body, passage.relative[i], band)) continue;
     const SegmentClearance segment = segmentClearance(body, k, passage.relative[i]);
     if (segment.clearance > band) continue;
     passage.near[i] = segment;

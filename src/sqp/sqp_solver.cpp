@@ -12,6 +12,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr std::array<double, 4> kStepLengths{1.0, 0.5, 0.25, 0.125};
+constexpr double kForetold = 1e-3;   // of the gain
 constexpr double kSampleBand = 2.0;  // width of the band that gets rows, in the way flown per stage at full speed
 
 /// Largest distance between the knots of two plans [m].
@@ -42,9 +43,14 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
     if (status == QpStatus::kNotFinite) break;
     result.solved = true;
     // A step that was cut short has met something that the QP did not know; what it met is in the next QP.
-    const double wanted = largestMove(plan, answers_[static_cast<std::size_t>(result.iterations - 1)]);
+    const Trajectory& answer = answers_[static_cast<std::size_t>(result.iterations - 1)];
+    const double wanted = largestMove(plan, answer);
+    const double promised = qp_->objective(plan) - qp_->objective(answer);
+    const double before = current.value;
     const double moved = acceptStep(problem, plan, current);
-    if (wanted < settings.step_tolerance || (moved == 0.0 && result.iterations > 1)) break;
+    // Where the QP foretold what the step would gain, another one has no more to gain than it was wrong by.
+    const bool foretold = std::abs(before - current.value - promised) < kForetold * promised;
+    if (wanted < settings.step_tolerance || foretold || (moved == 0.0 && result.iterations > 1)) break;
   }
   active = solution_->active;
   result.max_violation = current.largest_violation;

@@ -71,7 +71,7 @@ const FaultCase kFile[] = {
     {"List", kGood, "[1, 2]", "", "found a list of 2, expected a map (line 1)"},
     {"SyntaxError", "auto", "[auto", "", "no legal YAML"},
     {"UnknownKey", "max_speed", "max_sped", "max_sped", "unknown key, did you mean \"max_speed\"? (line 1)"},
-    {"UnknownKeyUnlikeAny", "max_speed", "wind", "wind",
+    {"UnknownKeyUnlikeAny", "max_speed", "weather", "weather",
      "unknown key, expected one of: max_speed, max_acceleration, max_thrust_ratio"},
     {"RepeatedKey", "max_iterations", "max_speed: 3\nmax_iterations", "max_speed",
      "repeated key, first given in line 1 (line 4)"},

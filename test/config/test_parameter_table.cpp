@@ -71,6 +71,12 @@ const Place kPlaces[] = {
     {"max_tilt", 1.1, [](const Parameters& p) -> ParameterValue { return p.simulation.max_tilt; }},
     {"position_noise", 0.012, [](const Parameters& p) -> ParameterValue { return p.simulation.position_noise; }},
     {"velocity_noise", 0.013, [](const Parameters& p) -> ParameterValue { return p.simulation.velocity_noise; }},
+    {"position_bias", 0.014, [](const Parameters& p) -> ParameterValue { return p.simulation.position_bias; }},
+    {"wind", 1.5, [](const Parameters& p) -> ParameterValue { return p.simulation.wind; }},
+    {"gust_time", 1.6, [](const Parameters& p) -> ParameterValue { return p.simulation.gust_time; }},
+    {"latency", 0.017, [](const Parameters& p) -> ParameterValue { return p.simulation.latency; }},
+    {"jitter", 0.018, [](const Parameters& p) -> ParameterValue { return p.simulation.jitter; }},
+    {"drop", 0.019, [](const Parameters& p) -> ParameterValue { return p.simulation.drop; }},
     {"seed", 14, [](const Parameters& p) -> ParameterValue { return p.simulation.seed; }},
 };
 

@@ -191,5 +191,117 @@ TEST(ClosedLoopRun, NoiseReachesThePlannerAndFollowsTheSeed) {
   EXPECT_NE(first_measurement(1, 0), first_measurement(1, 1));
 }
 
+/// The snapshots of a run in which every UAV stays where it starts.
+std::vector<Snapshot> hoveringSnapshots(const Mission& mission, std::uint64_t seed) {
+  StraightPlanner planner(2);
+  planner.speed = 0.0;
+  ClosedLoopRun(mission, planner, seed).fly();
+  return planner.snapshots;
+}
+
+TEST(ClosedLoopRun, LatencyDelaysWhatThePlannerSeesByExactlyThatMuch) {
+  for (const double latency : {0.1, 0.123, 0.3, 0.75}) {
+    Mission mission = twoUavs(3.0);
+    mission.parameters.simulation.latency = latency;
+    StraightPlanner planner(2);
+    Recorder recorder;
+    ClosedLoopRun(mission, planner, 0).fly({&recorder});
+    ASSERT_EQ(planner.snapshots.size(), 11u);
+    for (const Snapshot& snapshot : planner.snapshots) {
+      const double stamp = snapshot.now - latency;
+      for (const UavMeasurement& measurement : snapshot.uavs) {
+        ASSERT_TRUE(measurement.received);
+        EXPECT_NEAR(measurement.stamp, stamp, 1e-9);
+      }
+      ASSERT_EQ(snapshot.obstacles.size(), 1u);
+      EXPECT_NEAR(snapshot.obstacles[0].stamp, stamp, 1e-9);
+      EXPECT_NEAR(snapshot.obstacles[0].shape.center().y(), 50.0 - 3.0 * stamp, 1e-6);
+      // Where the vehicle truly was then, between two samples.
+      const double sample = std::max(0.0, stamp / 0.01);
+      const auto before = static_cast<std::size_t>(sample);
+      const Vector3 truth =
+          recorder.positions[before] +
+          (sample - std::floor(sample)) * (recorder.positions[before + 1] - recorder.positions[before]);
+      EXPECT_LT((snapshot.uavs[0].p - truth).norm(), 1e-3);
+    }
+  }
+}
+
+TEST(ClosedLoopRun, SetpointsReachTheVehicleLate) {
+  Mission mission = twoUavs(3.0);
+  mission.parameters.simulation.latency = 0.5;
+  StraightPlanner planner(2);
+  Recorder recorder;
+  ClosedLoopRun(mission, planner, 0).fly({&recorder});
+  // The first plans are made at -0.3 s, begin at 0 and arrive at 0.2 s.
+  EXPECT_EQ(recorder.positions[20], mission.scenario.uavs[0].start);
+  EXPECT_GT(recorder.positions[26].x(), 1e-5);
+}
+
+TEST(ClosedLoopRun, WhatIsLostNeverArrives) {
+  Mission mission = twoUavs(1.0);
+  mission.parameters.simulation.drop = 1.0;
+  StraightPlanner planner(2);
+  Recorder recorder;
+  ClosedLoopRun(mission, planner, 0).fly({&recorder});
+  for (const Snapshot& snapshot : planner.snapshots) {
+    EXPECT_FALSE(snapshot.uavs[0].received);
+    EXPECT_TRUE(snapshot.obstacles.empty());
+  }
+  EXPECT_EQ(recorder.positions.back(), mission.scenario.uavs[0].start);
+}
+
+TEST(ClosedLoopRun, LossesAndJitterMakeTheNewestMessageOlder) {
+  Mission mission = twoUavs(60.0);
+  mission.parameters.simulation.latency = 0.1;
+  mission.parameters.simulation.drop = 0.5;
+  double oldest = 0.0, mean = 0.0, difference = 0.0;
+  const std::vector<Snapshot> snapshots = hoveringSnapshots(mission, 1);
+  for (const Snapshot& snapshot : snapshots) {
+    const double age = snapshot.now - snapshot.uavs[0].stamp;
+    EXPECT_GT(age, 0.1 - 1e-9);
+    oldest = std::max(oldest, age);
+    mean += age / static_cast<double>(snapshots.size());
+    difference = std::max(difference, std::abs(snapshot.uavs[0].stamp - snapshot.uavs[1].stamp));
+  }
+  // A message every 0.02 s: the newest that arrives is on average one older, and now and then several.
+  EXPECT_NEAR(mean, 0.12, 4.0 * 0.02 * std::sqrt(2.0 / static_cast<double>(snapshots.size())));
+  EXPECT_GT(oldest, 0.159);
+  EXPECT_GT(difference, 0.0);  // every UAV has its own losses
+
+  mission.parameters.simulation.drop = 0.0;
+  mission.parameters.simulation.jitter = 0.2;
+  double last = -1e9;
+  for (const Snapshot& snapshot : hoveringSnapshots(mission, 1)) {
+    EXPECT_GE(snapshot.uavs[0].stamp, last);
+    EXPECT_LT(snapshot.now - snapshot.uavs[0].stamp, 0.3 + 0.02 + 1e-9);
+    last = snapshot.uavs[0].stamp;
+  }
+}
+
+TEST(ClosedLoopRun, LossesAndLatencyLeaveTheNoiseOfEachMessageAlone) {
+  Mission mission = twoUavs(3.0);
+  mission.parameters.simulation.position_noise = 0.05;
+  const std::vector<Snapshot> all = hoveringSnapshots(mission, 1);
+  mission.parameters.simulation.drop = 0.05;
+  const std::vector<Snapshot> some = hoveringSnapshots(mission, 1);
+  mission.parameters.simulation.drop = 0.0;
+  mission.parameters.simulation.latency = 0.2;
+  const std::vector<Snapshot> late = hoveringSnapshots(mission, 1);
+  // The vehicles hover: odometry is their start plus noise.
+  ASSERT_EQ(some.size(), all.size());
+  ASSERT_EQ(late.size(), all.size());
+  int same = 0;
+  for (std::size_t n = 0; n < 2; ++n) {
+    EXPECT_LT((late[n].uavs[0].p - all[n].uavs[0].p).norm(), 1e-9);
+    for (std::size_t uav = 0; uav < 2; ++uav) {
+      if (some[n].uavs[uav].stamp != all[n].uavs[uav].stamp) continue;
+      EXPECT_EQ(some[n].uavs[uav].p, all[n].uavs[uav].p);
+      ++same;
+    }
+  }
+  EXPECT_GT(same, 0);
+}
+
 }  // namespace
 }  // namespace swarm_planner

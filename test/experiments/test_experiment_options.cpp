@@ -11,16 +11,23 @@ namespace {
 using Arguments = std::vector<std::string>;
 
 TEST(ExperimentOptions, ReadsWhatIsGiven) {
-  const ExperimentOptions options =
-      parseExperimentOptions({"fly", "a.yaml", "--seeds", "3:5", "b.yaml", "--json=out.json", "--csv", "dir", "--noise",
-                              "0.02", "--without", "avoidance", "--params", "p.yaml", "--threads", "2"});
+  const ExperimentOptions options = parseExperimentOptions(
+      {"fly",  "a.yaml",    "--seeds",   "3:5",      "b.yaml", "--json=out.json", "--csv", "dir",        "--noise",
+       "0.02", "--latency", "0.1",       "--jitter", "0.05",   "--drop",          "0.2",   "--bias=0.3", "--wind",
+       "4",    "--without", "avoidance", "--params", "p.yaml", "--threads",       "2"});
   EXPECT_EQ(options.command, ExperimentCommand::kFly);
   EXPECT_EQ(options.scenario_files, (Arguments{"a.yaml", "b.yaml"}));
   EXPECT_EQ(options.seeds, (std::vector<std::uint64_t>{3, 4, 5}));
   EXPECT_EQ(options.json_file, "out.json");
   EXPECT_EQ(options.csv_directory, "dir");
   EXPECT_EQ(options.parameter_file, "p.yaml");
-  EXPECT_EQ(options.noise, 0.02);
+  EXPECT_EQ(options.disturbances, (std::map<std::string, double>{{"position_noise", 0.02},
+                                                                 {"velocity_noise", 0.02},
+                                                                 {"position_bias", 0.3},
+                                                                 {"wind", 4.0},
+                                                                 {"latency", 0.1},
+                                                                 {"jitter", 0.05},
+                                                                 {"drop", 0.2}}));
   EXPECT_EQ(options.threads, 2);
   EXPECT_FALSE(options.avoidance);
 }
@@ -75,8 +82,17 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"fly", "a.yaml", "--without", "check"}, "only \"avoidance\""},
       {{"fly", "a.yaml", "--uavs", "6"}, "does not go with this command"},
       {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},
-      {{"fly", "a.yaml", "--latency", "0.1"}, "--latency: not supported yet"},
-      {{"fly", "a.yaml", "--drop", "0.1"}, "--drop: not supported yet"},
+      {{"fly", "a.yaml", "--latency", "-0.1"}, "--latency: expected a number in [0, 10] [s], not \"-0.1\""},
+      {{"fly", "a.yaml", "--latency", "100"}, "--latency: expected a number in [0, 10] [s], not \"100\""},
+      {{"fly", "a.yaml", "--latency", "0.1s"}, "--latency: expected a number in [0, 10] [s], not \"0.1s\""},
+      {{"fly", "a.yaml", "--latency"}, "--latency: a value is missing"},
+      {{"fly", "a.yaml", "--jitter", "nan"}, "--jitter: expected a number in [0, 10] [s], not \"nan\""},
+      {{"fly", "a.yaml", "--drop", "20"}, "--drop: expected a number in [0, 1], not \"20\""},
+      {{"fly", "a.yaml", "--drop", "-0.2"}, "--drop: expected a number in [0, 1], not \"-0.2\""},
+      {{"fly", "a.yaml", "--bias", "-1"}, "--bias: expected a number >= 0 [m], not \"-1\""},
+      {{"monte_carlo", "--wind", "31"}, "--wind: expected a number in [0, 30] [m/s], not \"31\""},
+      {{"scaling", "--wind", "strong"}, "--wind: expected a number in [0, 30] [m/s], not \"strong\""},
+      {{"circle_swap", "--drop", "0.1", "--drop", "0.2"}, "--drop: given twice"},
       {{"monte_carlo", "--scenarios", "0"}, "--scenarios: expected a whole number from 1"},
       {{"monte_carlo", "--scenarios", "5", "--seeds", "1:2"}, "one of them"},
       {{"monte_carlo", "--uavs", "6", "7"}, "one number"},

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "swarm_planner/experiments/experiment_program.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
 #include "temporary_directory.hpp"
 
 namespace swarm_planner {
@@ -146,6 +147,65 @@ TEST_F(ExperimentProgramTest, TheFlightDoesNotDependOnTheNumberOfThreads) {
     return contentOf(csv + "/states.csv");
   };
   EXPECT_EQ(flight("1"), flight("3"));
+}
+
+TEST_F(ExperimentProgramTest, DisturbancesOfZeroAreNone) {
+  const auto flight = [this](const std::string& name, const std::vector<std::string>& disturbances) {
+    const std::string csv = directory_.file(name);
+    std::vector<std::string> arguments = {"fly", directory_.file("meeting.yaml"), "--csv", csv};
+    arguments.insert(arguments.end(), disturbances.begin(), disturbances.end());
+    EXPECT_EQ(run(arguments), kExperimentDone) << err_.str();
+    return contentOf(csv + "/states.csv");
+  };
+  const std::string undisturbed = flight("undisturbed", {});
+  EXPECT_EQ(undisturbed, flight("zero", {"--latency", "0", "--jitter", "0", "--drop", "0", "--noise", "0", "--bias",
+                                         "0", "--wind", "0", "--seed", "77"}));
+  const std::vector<std::vector<std::string>> disturbances = {{"--latency", "0.1"}, {"--jitter", "0.3"},
+                                                              {"--drop", "0.5"},    {"--noise", "0.02"},
+                                                              {"--bias", "0.05"},   {"--wind", "1"}};
+  for (const std::vector<std::string>& disturbance : disturbances) {
+    EXPECT_NE(undisturbed, flight(disturbance[0], disturbance)) << disturbance[0];
+  }
+}
+
+TEST_F(ExperimentProgramTest, ADisturbedFlightFollowsItsSeedForAnyNumberOfThreads) {
+  const auto flight = [this](const std::string& seed, const std::string& threads) {
+    const std::string csv = directory_.file("csv" + seed + threads);
+    EXPECT_EQ(run({"circle_swap", "--uavs", "6",      "--threads", threads,     "--csv",   csv,
+                   "--seed",      seed,     "--wind", "1",         "--latency", "0.1",     "--jitter",
+                   "0.1",         "--drop", "0.2",    "--bias",    "0.05",      "--noise", "0.02"}),
+              kExperimentDone)
+        << err_.str();
+    return contentOf(csv + "/states.csv");
+  };
+  const std::string first = flight("0", "1");
+  EXPECT_EQ(first, flight("0", "3"));
+  EXPECT_NE(first, flight("1", "1"));
+}
+
+TEST_F(ExperimentProgramTest, TheReportTellsTheDisturbances) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"fly", directory_.file("meeting.yaml"), "--json", json_file, "--latency", "0.1", "--jitter", "0.05",
+                 "--drop", "0.02", "--noise", "0.03", "--bias", "0.04", "--wind", "0.5"}),
+            kExperimentDone);
+  const YAML::Node told = YAML::Load(contentOf(json_file))[0]["disturbances"];
+  EXPECT_EQ(told["latency_s"].as<double>(), 0.1);
+  EXPECT_EQ(told["jitter_s"].as<double>(), 0.05);
+  EXPECT_EQ(told["drop"].as<double>(), 0.02);
+  EXPECT_EQ(told["position_noise_m"].as<double>(), 0.03);
+  EXPECT_EQ(told["velocity_noise_mps"].as<double>(), 0.03);
+  EXPECT_EQ(told["position_bias_m"].as<double>(), 0.04);
+  EXPECT_EQ(told["wind_mps"].as<double>(), 0.5);
+}
+
+TEST_F(ExperimentProgramTest, OdometryThatIsTooOldKeepsTheSwarmHoveringAndIsTold) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"fly", directory_.file("meeting.yaml"), "--json", json_file, "--latency", "0.6"}), kExperimentDone);
+  const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+  EXPECT_LT(json["path_length_m"].as<double>(), 1e-6);
+  ASSERT_EQ(json["fallbacks"].size(), 1u);
+  EXPECT_EQ(json["fallbacks"][reasonText(Reason::kOdometryStale)].as<int>(), 2 * json["cycles"].as<int>());
+  EXPECT_NE(out_.str().find(reasonText(Reason::kOdometryStale)), std::string::npos) << out_.str();
 }
 
 TEST_F(ExperimentProgramTest, FaultsOfAllFilesAreListedAndNothingIsFlown) {

@@ -279,10 +279,15 @@ TEST(IsBeyond, IsNeverTrueOfASegmentThatComesAsClose) {
     const KinematicState begin{random.vector(-4.0, 4.0), random.vector(-10.0, 10.0), random.vector(-20.0, 20.0)};
     const Vector3 jerk = random.vector(-50.0, 50.0);
     const SegmentPoints points = segmentPoints(begin, propagate(begin, jerk, kDt), kDt);
-    const double distance = random.uniform(0.1, 4.0);
-    if (!isBeyond(points, distance)) continue;
+    const Superellipsoid obstacle(0, Vector3::Zero(), random.vector(0.2, 3.0), random.vector(2.0, 8.0),
+                                  random.uniform(-3.0, 3.0), Vector3::Zero());
+    const MovingBody body = MovingBody::fromObstacle(obstacle, kDt, 1.0, 0.5);
+    const double distance = random.uniform(0.1, 2.0);
+    if (!isBeyond(body, points, distance)) continue;
     ++beyond;
-    for (double s = 0.0; s <= 1.0; s += 0.05) EXPECT_GT(propagate(begin, jerk, s * kDt).p.norm(), distance);
+    for (double s = 0.0; s <= 1.0; s += 0.05) {
+      EXPECT_GT(obstacle.signedDistance(propagate(begin, jerk, s * kDt).p), distance + 0.5);
+    }
   }
   EXPECT_GT(beyond, 500);
 }
@@ -291,9 +296,12 @@ TEST(IsBeyond, KnowsASegmentOnEitherSide) {
   const SegmentPoints right{Vector3(3, -1, 0), Vector3(3, 0, 0), Vector3(4, 0, 1), Vector3(3, 1, 0)};
   SegmentPoints left = right;
   for (Vector3& point : left) point = -point;
+  PredictedMotion resting;
+  predictResting(Vector3::Zero(), resting);
+  const MovingBody body = MovingBody::fromUav(resting, 2.0, 2.0, Vector3::UnitX());
   for (const SegmentPoints& points : {right, left}) {
-    EXPECT_TRUE(isBeyond(points, 2.9));
-    EXPECT_FALSE(isBeyond(points, 3.0));
+    EXPECT_TRUE(isBeyond(body, points, 0.9));
+    EXPECT_FALSE(isBeyond(body, points, 1.0));
   }
 }
 

@@ -165,6 +165,50 @@ TEST_F(QuadSimulatorTest, ComesBackAfterAGust) {
   EXPECT_THROW(quad.setDisturbance(Vector3(std::nan(""), 0.0, 0.0)), std::invalid_argument);
 }
 
+TEST_F(QuadSimulatorTest, GustsShakeAHoveringVehicleAsLinearTheoryPredicts) {
+  parameters_.simulation.wind = 1.0;
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  Vector3 square = Vector3::Zero();
+  int count = 0;
+  for (double t = 0.1; t < 2000.0; t += 0.1, ++count) {
+    quad.advanceTo(t);
+    square += (quad.state().p - start_).cwiseAbs2();
+  }
+  // d^2 p / dt^2 + velocity_gain dp / dt + position_gain p = (k_d / M) w, and w a first-order process.
+  const double k = parameters_.simulation.position_gain, c = parameters_.simulation.velocity_gain;
+  const double rate = 1.0 / parameters_.simulation.gust_time;
+  const double gain = (rate + c) / (k * c * (rate * rate + rate * c + k));
+  for (int axis = 0; axis < 3; ++axis) {
+    const double expected = parameters_.vehicle.dragOverMass()(axis) * std::sqrt(gain);
+    EXPECT_NEAR(std::sqrt(square(axis) / count), expected, 0.15 * expected);
+  }
+}
+
+TEST_F(QuadSimulatorTest, WindActsThroughTheDragAlone) {
+  parameters_.simulation.wind = 5.0;
+  parameters_.vehicle.drag_x = parameters_.vehicle.drag_y = 0.0;
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  quad.advanceTo(5.0);
+  EXPECT_GT(quad.wind().head<2>().norm(), 0.1);
+  EXPECT_LT((quad.state().p - start_).head<2>().norm(), 1e-6);
+  EXPECT_GT(std::abs(quad.state().p.z() - start_.z()), 0.01);
+}
+
+TEST_F(QuadSimulatorTest, EveryUavHasGustsOfItsOwnThatFollowTheSeed) {
+  parameters_.simulation.wind = 2.0;
+  const auto flight = [this](std::uint64_t seed, std::size_t index) {
+    QuadSimulator quad(parameters_, start_, seed, index);
+    quad.advanceTo(0.0);
+    quad.advanceTo(3.0);
+    return Vector3(quad.state().p);
+  };
+  EXPECT_EQ(flight(1, 0), flight(1, 0));
+  EXPECT_NE(flight(1, 0), flight(2, 0));
+  EXPECT_NE(flight(1, 0), flight(1, 1));
+}
+
 TEST_F(QuadSimulatorTest, FliesOnWithTheOldTrajectoryUntilTheNewOnesEpoch) {
   QuadSimulator quad(parameters_, start_, 1);
   quad.advanceTo(0.0);
@@ -243,6 +287,43 @@ TEST_F(QuadSimulatorTest, NoiseHasTheStatedDeviationAndFollowsTheSeed) {
     EXPECT_NEAR(std::sqrt(square(axis)), 0.1, 0.1 * 4.0 / std::sqrt(2.0 * kCount));
     EXPECT_NEAR(std::sqrt(velocity_square(axis)), 0.3, 0.3 * 4.0 / std::sqrt(2.0 * kCount));
   }
+}
+
+TEST_F(QuadSimulatorTest, TheBiasIsConstantOfTheStatedLengthAndInAnyDirection) {
+  parameters_.simulation.position_bias = 0.2;
+  Vector3 mean = Vector3::Zero(), square = Vector3::Zero();
+  constexpr std::size_t kCount = 3000;
+  for (std::size_t uav = 0; uav < kCount; ++uav) {
+    QuadSimulator quad(parameters_, start_, 7, uav);
+    const Vector3 bias = quad.measure().p - start_;
+    ASSERT_NEAR(bias.norm(), 0.2, 1e-9);
+    ASSERT_EQ(quad.measure().p - start_, bias);
+    ASSERT_EQ(quad.measure().v, Vector3::Zero());
+    mean += bias / (0.2 * kCount);
+    square += bias.cwiseAbs2() / (0.04 * kCount);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(mean(axis), 0.0, 4.0 / std::sqrt(3.0 * kCount));
+    EXPECT_NEAR(square(axis), 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / kCount));
+  }
+}
+
+TEST_F(QuadSimulatorTest, OneDisturbanceLeavesTheNumbersOfTheOthersAlone) {
+  const auto measured = [this](double position_noise, double velocity_noise, double bias, double wind) {
+    parameters_.simulation.position_noise = position_noise;
+    parameters_.simulation.velocity_noise = velocity_noise;
+    parameters_.simulation.position_bias = bias;
+    parameters_.simulation.wind = wind;
+    QuadSimulator quad(parameters_, start_, 7);
+    quad.measure();
+    return quad.measure();
+  };
+  const Vector3 noise = measured(0.1, 0.0, 0.0, 0.0).p - start_;
+  const Vector3 bias = measured(0.0, 0.0, 0.2, 0.0).p - start_;
+  const UavMeasurement all = measured(0.1, 0.3, 0.2, 1.0);
+  EXPECT_GT(noise.norm(), 0.0);
+  EXPECT_LT((all.p - start_ - noise - bias).norm(), 1e-12);
+  EXPECT_EQ(all.v, measured(0.0, 0.3, 0.0, 0.0).v);
 }
 
 TEST_F(QuadSimulatorTest, TimeThatGoesBackOrIsNotANumberChangesNothing) {

@@ -1,17 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "solver/generated_program.hpp"
 
-#include <unistd.h>
-
-#include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
-
-#include "swarm_planner/solver/codegen/generator.hpp"
 
 namespace swarm_planner {
 namespace codegen {
@@ -53,6 +43,14 @@ int main(void) {
       for (int c = 0; c < PREFIX_COMPONENTS; ++c) normal[c] = number();
       if (NAME_add_row(&solver, output, stage, normal, number(), penalty) < 0) return 6;
     }
+    solver.quadratic_count = (int)number();
+    for (int i = 0; i < solver.quadratic_count; ++i) {
+      solver.quadratic_output[i] = (int)number();
+      solver.quadratic_index[i] = (int)number();
+      for (int c = 0; c < PREFIX_COMPONENTS; ++c) solver.quadratic_normal[i][c] = number();
+      solver.quadratic_offset[i] = number();
+      solver.quadratic_weight[i] = number();
+    }
     solver.wanted_method = PREFIX_ACTIVE_SET;
     solver.warm_count = 0;
     NAME_solve_baseline(&tables, &solver);
@@ -72,56 +70,12 @@ int main(void) {
 }
 )";
 
-std::string named(std::string text, const std::string& name) {
-  std::string upper = name;
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  const std::pair<std::string, std::string> replacements[] = {{"NAME", name}, {"PREFIX", upper}};
-  for (const auto& replacement : replacements) {
-    for (std::size_t at = text.find(replacement.first); at != std::string::npos;
-         at = text.find(replacement.first, at + replacement.second.size())) {
-      text.replace(at, replacement.first.size(), replacement.second);
-    }
-  }
-  return text;
-}
-
-void writeFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-}
-
-void run(const std::string& command) {
-  if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
-}
-
 void append(std::vector<double>& to, const std::vector<double>& from) { to.insert(to.end(), from.begin(), from.end()); }
 
 }  // namespace
 
 GeneratedProgram::GeneratedProgram(const Description& description, const std::string& compiler_flags)
-    : description_(description) {
-  char folder[] = "/tmp/qp_codegen_test_XXXXXX";
-  if (mkdtemp(folder) == nullptr) throw std::runtime_error("no temporary folder");
-  folder_ = folder;
-  const GeneratedCode code = generate(description);
-  writeFile(folder_ + "/" + description.name + ".h", code.header);
-  writeFile(folder_ + "/" + description.name + ".c", code.source);
-  writeFile(folder_ + "/driver.c", named(kDriver, description.name));
-  const std::string compile = "cd " + folder_ + " && cc -std=c99 -Wall -Wextra -Werror " + compiler_flags + " -c ";
-  run(compile + description.name + ".c -o solver.o");
-  run(compile + "driver.c -o driver.o");
-  run("cd " + folder_ + " && cc " + compiler_flags + " driver.o solver.o -o driver");
-}
-
-GeneratedProgram::~GeneratedProgram() {
-  for (const std::string& file : {description_.name + ".h", description_.name + ".c", std::string("driver.c"),
-                                  std::string("solver.o"), std::string("driver.o"), std::string("driver"),
-                                  std::string("in"), std::string("out"), std::string("symbols")}) {
-    std::remove((folder_ + "/" + file).c_str());
-  }
-  rmdir(folder_.c_str());
-}
+    : description_(description), program_(generate(description), kDriver, compiler_flags) {}
 
 std::vector<std::vector<SolverAnswer>> GeneratedProgram::solve(const std::vector<ProblemData>& problems) const {
   std::vector<double> in{static_cast<double>(problems.size())};
@@ -133,37 +87,35 @@ std::vector<std::vector<SolverAnswer>> GeneratedProgram::solve(const std::vector
       append(in, row.normal);
       in.push_back(row.offset);
     }
+    in.push_back(static_cast<double>(p.quadratics.size()));
+    for (const ProblemData::Quadratic& term : p.quadratics) {
+      const int first = description_.outputs[static_cast<std::size_t>(term.output)].touchesInput() ? 0 : 1;
+      append(in, {static_cast<double>(term.output), static_cast<double>(term.stage - first)});
+      append(in, term.normal);
+      append(in, {term.offset, term.weight});
+    }
   }
-  std::ofstream(folder_ + "/in", std::ios::binary)
-      .write(reinterpret_cast<const char*>(in.data()), static_cast<std::streamsize>(in.size() * sizeof(double)));
-  run("cd " + folder_ + " && ./driver < in > out");
+  const std::vector<double> out = program_.run(in);
 
   const auto inputs = static_cast<std::size_t>(description_.horizon * description_.inputs);
   const auto states = static_cast<std::size_t>((description_.horizon + 1) * description_.states);
-  std::ifstream out(folder_ + "/out", std::ios::binary);
+  const std::size_t size = 3 + inputs + states;
+  if (out.size() != 3 * size * problems.size()) throw std::runtime_error("the program wrote too little");
   std::vector<std::vector<SolverAnswer>> answers(problems.size());
+  auto values = out.begin();
   for (auto& of_problem : answers) {
-    for (int i = 0; i < 3; ++i) {
-      std::vector<double> values(3 + inputs + states);
-      out.read(reinterpret_cast<char*>(values.data()), static_cast<std::streamsize>(values.size() * sizeof(double)));
-      if (!out) throw std::runtime_error("the program wrote too little");
+    for (int i = 0; i < 3; ++i, values += static_cast<std::ptrdiff_t>(size)) {
       SolverAnswer answer;
       answer.status = static_cast<int>(values[0]);
       answer.method = static_cast<int>(values[1]);
       answer.iterations = static_cast<int>(values[2]);
-      const auto u = values.begin() + 3, x = u + static_cast<std::ptrdiff_t>(inputs);
+      const auto u = values + 3, x = u + static_cast<std::ptrdiff_t>(inputs);
       answer.u.assign(u, x);
-      answer.x.assign(x, values.end());
+      answer.x.assign(x, x + static_cast<std::ptrdiff_t>(states));
       of_problem.push_back(answer);
     }
   }
   return answers;
-}
-
-std::string GeneratedProgram::undefinedSymbols() const {
-  run("cd " + folder_ + " && nm -u solver.o > symbols");
-  std::ifstream file(folder_ + "/symbols");
-  return std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
 }
 
 }  // namespace codegen

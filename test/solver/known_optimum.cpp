@@ -30,7 +30,8 @@ void addRows(KnownOptimum& known, std::size_t k, const RowMix& mix, Random& rand
     known.qp.addRow(static_cast<int>(k), output, random.vector(1.0).normalized(), 0.0);
     double multiplier = 0.0;
     if (i < mix.active) multiplier = random.uniform(0.05, 0.95) * known.qp.model.slack_linear;
-    if (i >= mix.active && i < mix.active + mix.softened) multiplier = random.uniform(1.1, 2.0) * known.qp.model.slack_linear;
+    if (i >= mix.active && i < mix.active + mix.softened)
+      multiplier = random.uniform(1.1, 2.0) * known.qp.model.slack_linear;
     known.multipliers[k][static_cast<std::size_t>(i)] = multiplier;
   }
 }
@@ -91,8 +92,7 @@ KnownOptimum makeKnownOptimum(const RowMix& mix, std::mt19937_64& engine) {
     stage.position_gradient += costate.p;
     stage.velocity_gradient += costate.v;
     known.solution.jerks[k - 1] =
-        -(dt * dt * dt / 6.0 * costate.p + 0.5 * dt * dt * costate.v + dt * costate.a) /
-        qp.model.jerk_weight;
+        -(dt * dt * dt / 6.0 * costate.p + 0.5 * dt * dt * costate.v + dt * costate.a) / qp.model.jerk_weight;
   }
   Trajectory x;
   x.dt = dt;

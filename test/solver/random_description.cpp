@@ -125,7 +125,13 @@ class RowMaker {
  public:
   RowMaker(const Description& d, const Prediction& prediction, const VectorXd& u, const KnownProblemOptions& options,
            Random& random)
-      : d_(d), prediction_(prediction), u_(u), options_(options), random_(random), force_(VectorXd::Zero(u.size())), hard_(u.size(), 0) {
+      : d_(d),
+        prediction_(prediction),
+        u_(u),
+        options_(options),
+        random_(random),
+        force_(VectorXd::Zero(u.size())),
+        hard_(u.size(), 0) {
     for (const Output& output : d.outputs) components_ = std::max(components_, output.size());
     used_.assign(d.outputs.size(), std::vector<int>(static_cast<std::size_t>(d.horizon + 1), 0));
   }
@@ -150,6 +156,22 @@ class RowMaker {
     if (row.penalty == 0) put(row);
   }
 
+  /// A term of the cost; what it exerts at the optimum joins the rows'.
+  ProblemData::Quadratic quadratic() {
+    ProblemData::Quadratic term;
+    term.output = random_.integer(0, static_cast<int>(d_.outputs.size()) - 1);
+    const Output& output = d_.outputs[static_cast<std::size_t>(term.output)];
+    term.stage = random_.integer(output.touchesInput() ? 0 : 1, output.touchesInput() ? d_.horizon - 1 : d_.horizon);
+    VectorXd normal = VectorXd::Zero(components_);
+    for (int i = 0; i < output.size(); ++i) normal(i) = random_.uniform(-1.0, 1.0);
+    const Functional f = prediction_.functional(term.output, term.stage, normal);
+    term.normal = list(normal);
+    term.offset = random_.uniform(-1.0, 1.0);
+    term.weight = random_.logUniform(1e-3, 1e3);
+    force_ -= term.weight * (f.gain.dot(u_) + f.constant - term.offset) * f.gain;
+    return term;
+  }
+
   const VectorXd& force() const { return force_; }
   const std::vector<ProblemData::Row>& rows() const { return rows_; }
 
@@ -168,7 +190,8 @@ class RowMaker {
   bool activate(ProblemData::Row& row, const Functional& f, double value) {
     const Output& output = d_.outputs[static_cast<std::size_t>(row.output)];
     const int copies = options_.duplicates ? 2 : 1;
-    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows) return false;
+    if (used_[static_cast<std::size_t>(row.output)][static_cast<std::size_t>(row.stage)] + copies > output.max_rows)
+      return false;
     if (row.penalty == 0 && options_.independent && !isIndependent(f.gain)) return false;
     double multiplier = random_.uniform(0.1, 5.0) / options_.row_scale;
     row.offset = value;
@@ -221,8 +244,8 @@ std::string randomDescription(Random& random, int number, double row_scale) {
   out << "name: random_" << number << "\nhorizon: " << random.integer(1, 14) << "\nstates: " << states * copies
       << "\ninputs: " << inputs * copies << "\ndynamics: {A: " << text(spread(a)) << ", B: " << text(spread(b))
       << "}\ncost:\n  state: " << text(spread(semidefinite(random, states, density)))
-      << "\n  terminal: " << text(spread(semidefinite(random, states, density))) << "\n  input: "
-      << text(spread(semidefinite(random, inputs, density) + 0.5 * MatrixXd::Identity(inputs, inputs)))
+      << "\n  terminal: " << text(spread(semidefinite(random, states, density)))
+      << "\n  input: " << text(spread(semidefinite(random, inputs, density) + 0.5 * MatrixXd::Identity(inputs, inputs)))
       << "\n  input_linear: true\n";
   if (random.integer(0, 1) == 1) out << "  rate: " << text(spread(semidefinite(random, inputs, 1.0))) << "\n";
   const double square = row_scale * row_scale;
@@ -237,7 +260,7 @@ std::string randomDescription(Random& random, int number, double row_scale) {
     if (random.integer(0, 1) == 1) out << "    input: " << text(spread(sparse(random, rows, inputs, 0.5, 1.0))) << "\n";
     out << "    rows: {most_per_stage: " << random.integer(2, 20) << "}\n";
   }
-  out << "limits: {active: " << random.integer(20, 40) << ", changes: 400}\n";
+  out << "limits: {active: " << random.integer(20, 40) << ", changes: 400, quadratic_terms: 4}\n";
   return out.str();
 }
 
@@ -253,11 +276,12 @@ KnownProblem makeKnownProblem(const Description& d, const KnownProblemOptions& o
   RowMaker rows(d, prediction, u, options, random);
   for (int i = 0; i < options.active; ++i) rows.add(true);
   for (int i = 0; i < options.inactive; ++i) rows.add(false);
+  KnownProblem problem;
+  for (int i = 0; i < options.quadratics; ++i) problem.data.quadratics.push_back(rows.quadratic());
   VectorXd gradient = costGradient(d, prediction, u, previous) - rows.force();
   for (int k = 1; k <= d.horizon; ++k) {
     gradient += prediction.gain(k).transpose() * state_linear.segment((k - 1) * d.states, d.states);
   }
-  KnownProblem problem;
   problem.data.x0 = list(x0);
   problem.data.u_previous = list(previous);
   problem.data.state_linear = list(state_linear);

@@ -20,10 +20,11 @@ struct KnownProblem {
 };
 
 struct KnownProblemOptions {
-  int active = 6;        ///< rows with a multiplier at the optimum, of all kinds
+  int active = 6;  ///< rows with a multiplier at the optimum, of all kinds
   int inactive = 20;
-  double row_scale = 1.0;  ///< normals and offsets times this
-  bool duplicates = false; ///< every active row comes twice, and once opposed and inactive
+  int quadratics = 0;       ///< rank-one terms of the cost, 4 at most
+  double row_scale = 1.0;   ///< normals and offsets times this
+  bool duplicates = false;  ///< every active row comes twice, and once opposed and inactive
   /// Hard active rows of independent gradients, so that there are points where all hold with room, without which no
   /// interior-point method converges. false: they may pin the inputs.
   bool independent = true;

@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 //
 // The solver that flies: wrong answers here are wrong plans.
-#include "swarm_planner/solver/generated_solver.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "known_optimum.hpp"
 #include "reference/interior_point.hpp"
+#include "swarm_planner/solver/generated_solver.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -34,7 +33,21 @@ TEST_P(GeneratedSolverTest, FindsTheKnownOptimum) {
     const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
     ASSERT_EQ(solveGenerated(known->qp, *solution), QpStatus::kSolved) << "trial " << trial;
     const double expected = objective(known->qp, known->solution.jerks);
-    EXPECT_NEAR(objective(known->qp, solution->jerks), expected, 1e-8 * (1.0 + std::abs(expected))) << "trial " << trial;
+    EXPECT_NEAR(objective(known->qp, solution->jerks), expected, 1e-8 * (1.0 + std::abs(expected)))
+        << "trial " << trial;
+  }
+}
+
+TEST_P(GeneratedSolverTest, TheObjectiveIsThatOfTheDefinition) {
+  std::mt19937_64 random(16);
+  for (int trial = 0; trial < 20; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    Trajectory plan;
+    plan.dt = known->qp.model.dt;
+    for (Vector3& jerk : plan.jerks) jerk = 3.0 * randomVector(random);
+    rollOut(known->qp.start, plan);
+    const double expected = objective(known->qp, plan.jerks);
+    EXPECT_NEAR(known->qp.objective(plan), expected, 1e-12 * (1.0 + std::abs(expected)));
   }
 }
 
@@ -58,7 +71,8 @@ TEST_P(GeneratedSolverTest, AgreesWithTheReference) {
 /// The known problem with rows that can be recognised: numbered within each stage and output.
 void numberRows(Qp& qp) {
   for (QpStage& stage : qp.stages) {
-    for (int i = 0; i < stage.row_count; ++i) stage.rows[static_cast<std::size_t>(i)].source = 10 + static_cast<RowSource>(i);
+    for (int i = 0; i < stage.row_count; ++i)
+      stage.rows[static_cast<std::size_t>(i)].source = 10 + static_cast<RowSource>(i);
   }
 }
 
@@ -102,7 +116,8 @@ TEST_P(GeneratedSolverTest, AWrongGuessChangesNothing) {
     for (std::int8_t stage = 1; stage <= kHorizon; ++stage) {
       for (RowSource source = 10; source < 13; ++source) {
         warm->active.rows[static_cast<std::size_t>(warm->active.count++)] = {
-            stage, Output::kPosition, source, std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 6.0)(random))};
+            stage, Output::kPosition, source,
+            std::pow(10.0, std::uniform_real_distribution<double>(-6.0, 6.0)(random))};
       }
     }
     ASSERT_EQ(solveGenerated(known->qp, *warm), QpStatus::kSolved);
@@ -121,8 +136,7 @@ TEST(GeneratedSolver, SolvesOneAfterTheOtherAsIfEachWereTheFirst) {
   std::mt19937_64 random(13);
   const auto first = std::make_unique<KnownOptimum>(makeKnownOptimum({2, 1, 10}, random));
   const auto second = std::make_unique<KnownOptimum>(makeKnownOptimum({1, 0, 3}, random));
-  GeneratedSolver solver(
-      std::make_shared<GeneratedTables>(std::vector<QpModel>{first->qp.model, second->qp.model}));
+  GeneratedSolver solver(std::make_shared<GeneratedTables>(std::vector<QpModel>{first->qp.model, second->qp.model}));
   auto fresh = std::make_unique<QpSolution>();
   auto used = std::make_unique<QpSolution>();
   for (int repeat = 0; repeat < 3; ++repeat) {

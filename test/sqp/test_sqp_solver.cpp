@@ -44,6 +44,17 @@ class SqpSolverTest : public ::testing::Test {
   SqpSolver solver_{std::make_unique<InteriorPointSolver>()};
 };
 
+TEST_F(SqpSolverTest, StopsWhenTheQpForetoldTheGain) {
+  // A straight path and no bodies: the QP is the problem itself.
+  const FlightProblem flight(kLine, 3.0, {Vector3(0, 2, 11), Vector3(1, 0, 0), Vector3::Zero()});
+  Trajectory plan = flight.coasting();
+  const SqpResult result = solveCold(solver_, flight.problem, plan);
+  EXPECT_EQ(result.iterations, 1);
+  Trajectory again = plan;
+  solveCold(solver_, flight.problem, again);
+  EXPECT_LT(largestDistance(plan, again), 1e-4);
+}
+
 TEST_F(SqpSolverTest, NeverMakesAPlanWorse) {
   Random random(1);
   int improved = 0;

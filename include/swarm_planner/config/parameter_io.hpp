@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,6 +33,10 @@ struct ParameterInfo {
 
 /// Every parameter, in the order of the shipped YAML.
 const std::vector<ParameterInfo>& parameterTable();
+
+/// What parameter `name` takes, e.g. "a number > 0 [m]", if `value` is not allowed; nothing if it is. Throws
+/// std::invalid_argument if there is no such parameter.
+std::optional<std::string> expectedInstead(const std::string& name, const ParameterValue& value);
 
 /// Reads a file of parameters such as config/planner.yaml (a flat map). Faults as for scenarios; a value with a
 /// fault is left out of the map. With `require_all` every parameter of the shipped files that this file has a

@@ -83,7 +83,8 @@ struct InputParameters {
   bool autostart = true;          ///< start as soon as every UAV's odometry has arrived
 };
 
-/// The simulated quadrotor's controller, sensors and rates.
+/// The simulated quadrotor's controller, sensors and rates, the wind, and the links between vehicles and ground
+/// station.
 struct SimulationParameters {
   double step = 0.005;               ///< integration step of the dynamics [s]
   double odometry_rate = 50.0;       ///< [Hz]
@@ -95,7 +96,13 @@ struct SimulationParameters {
   double max_tilt = 1.2;             ///< commanded roll and pitch saturate here [rad]
   double position_noise = 0.0;       ///< standard deviation of measured position [m]
   double velocity_noise = 0.0;       ///< standard deviation of measured velocity [m/s]
-  int seed = 0;                      ///< of the sensor noise
+  double position_bias = 0.0;        ///< length of each UAV's constant error of measured position [m]
+  double wind = 0.0;                 ///< standard deviation of the gusts' velocity on each axis [m/s]
+  double gust_time = 2.0;            ///< correlation time of the gusts [s]
+  double latency = 0.0;              ///< delay of every message: odometry, tracks and setpoints [s]
+  double jitter = 0.0;               ///< further delay, uniform between 0 and this, per message [s]
+  double drop = 0.0;                 ///< probability that a message is lost
+  int seed = 0;                      ///< of noise, bias, gusts, jitter and losses
 };
 
 /// Every parameter of planner, vehicle and simulation. Loaded and validated by config/parameter_io.hpp.

@@ -6,8 +6,10 @@
 
 #include "swarm_planner/experiments/cycle_planner.hpp"
 #include "swarm_planner/experiments/run_result.hpp"
+#include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/simulation/quad_simulator.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
+#include "swarm_planner/simulation/sensor_clock.hpp"
 
 namespace swarm_planner {
 
@@ -24,10 +26,12 @@ class RunObserver {
 
 /// One run: planner and simulated vehicles in closed loop, without ROS, timed as the ROS nodes are.
 ///
-/// Every cycle_period the planner gets a snapshot of that instant (the vehicles' odometry with its noise, the obstacles
-/// where they are) and plans for the epoch one cycle_period later: what one cycle computes is flown from the next on.
-/// Plans reach the vehicles sampled at kSetpointPeriod. The first epoch is t = 0: obstacles are at their start and
-/// targets begin to move then; until then the vehicles hover.
+/// Sensors measure at the instants of SensorClock; every message goes over a MessageLink of its own kind and UAV. Every
+/// cycle_period the planner gets a snapshot of what has arrived (the newest odometry of each vehicle, the newest tracks
+/// of the obstacles) and plans for the epoch one cycle_period later: what one cycle computes is flown from the next on.
+/// Plans are sampled at kSetpointPeriod and sent to the vehicles. The first epoch is t = 0: obstacles are at their
+/// start and targets begin to move then. The vehicles hover from t = -cycle_period on, where gusts set in; before that
+/// they stand at their start while the first messages are under way.
 class ClosedLoopRun {
  public:
   /// Distances, collisions and so on are evaluated this often [s].
@@ -35,7 +39,7 @@ class ClosedLoopRun {
   /// Spacing of the setpoints that the vehicles receive [s].
   static constexpr double kSetpointPeriod = 0.05;
 
-  /// `mission` and `planner` must outlive the run. `seed` is that of the sensor noise.
+  /// `mission` and `planner` must outlive the run. `seed` is that of all random disturbances.
   ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed);
 
   /// Flies until the scenario's end condition holds. Call it once. `observers` are told in the order given.
@@ -43,7 +47,11 @@ class ClosedLoopRun {
 
  private:
   void moveTo(double t);
+  void measureBefore(double t);
+  void receiveMeasurements(double now);
   void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
+  void sendSetpoints(std::size_t uav, double now);
+  void receiveSetpoints(std::size_t uav, double now);
   void record(const CycleReport& report);
   void evaluate(double t, const std::vector<RunObserver*>& observers);
   void summarise();
@@ -53,6 +61,11 @@ class ClosedLoopRun {
   std::vector<QuadSimulator> vehicles_;
   std::vector<Superellipsoid> obstacles_at_start_;
   std::vector<Superellipsoid> obstacles_;
+  double time_;  ///< of vehicles and obstacles [s]
+  SensorClock odometry_clock_, track_clock_;
+  std::vector<MessageLink<UavMeasurement>> odometry_links_;      ///< one per UAV
+  std::vector<MessageLink<SetpointTrajectory>> setpoint_links_;  ///< one per UAV
+  MessageLink<std::vector<TrackedObstacle>> track_link_;
   RunMonitor monitor_;
   Snapshot snapshot_;
   SetpointTrajectory setpoints_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,9 +28,10 @@ struct ExperimentOptions {
   /// A run for each: --seeds A:B (both ends included), --seed S, or 0; monte_carlo: as many from S on as scenarios.
   /// Empty only for fly without either: then the parameter "seed" holds.
   std::vector<std::uint64_t> seeds;
-  std::optional<double> noise;  ///< standard deviation of odometry [m] and [m/s]
-  std::optional<int> threads;   ///< of the planner
-  bool avoidance = true;        ///< false: negative control
+  /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
+  std::map<std::string, double> disturbances;
+  std::optional<int> threads;  ///< of the planner
+  bool avoidance = true;       ///< false: negative control
   std::optional<std::string> parameter_file;
   std::optional<std::string> json_file;
   std::optional<std::string> csv_directory;

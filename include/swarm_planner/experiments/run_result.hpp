@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
@@ -15,6 +16,7 @@ struct RunResult {
   std::string scenario;
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
+  SimulationParameters simulation;  ///< the disturbances that it was flown with, among others
   std::size_t cycles = 0;
   Distribution cycle_ms;                         ///< planning of the whole swarm, snapshot in to plans out [ms]
   Distribution uav_ms;                           ///< planning of one UAV [ms]

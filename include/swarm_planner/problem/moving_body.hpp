@@ -52,6 +52,8 @@ class MovingBody {
 
   /// Contains everything that must be kept clear of over the whole horizon [m].
   const Box& box() const { return box_; }
+  /// Half extents of a box about the reference point that contains what must be kept clear of [m].
+  const Vector3& extent() const { return extent_; }
   /// Radius about the reference point that contains what must be kept clear of [m].
   double radius() const { return radius_; }
   /// The distance to keep, without the body's own size [m]; of a UAV the shorter semi-axis.
@@ -67,6 +69,7 @@ class MovingBody {
   double level_ = 1.0;
   double distance_ = 0.0;
   Vector3 scale_ = Vector3::Ones();  ///< shorter semi-axis over each semi-axis of a pair ellipsoid
+  Vector3 extent_ = Vector3::Zero();
   double radius_ = 0.0;
   double relief_ = 0.0;
   Vector3 apart_ = Vector3::UnitX();
@@ -79,11 +82,14 @@ SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints&
 /// The relative position at the middle of a segment [m].
 Vector3 midpoint(const SegmentPoints& relative);
 
-/// True if the whole segment is certainly farther than `distance` from the reference point.
-inline bool isBeyond(const SegmentPoints& relative, double distance) {
+/// True if the whole segment is certainly farther than `distance` [m] from what must be kept clear of.
+inline bool isBeyond(const MovingBody& body, const SegmentPoints& relative, double distance) {
   Box box;
   for (const Vector3& r : relative) box.include(r);
-  return box.min.cwiseMax(-box.max).cwiseMax(0.0).squaredNorm() > distance * distance;
+  const Vector3 away = box.min.cwiseMax(-box.max);  // per axis the distance of the box from the reference point
+  if ((away.array() > body.extent().array() + distance).any()) return true;
+  const double radius = body.radius() + distance;
+  return away.cwiseMax(0.0).squaredNorm() > radius * radius;
 }
 
 /// How segment k lies to a body: the half-space, less what is waived, towards its middle and the least clearance of its

@@ -13,27 +13,31 @@
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
+#include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 
 namespace swarm_planner {
 
-/// Publishes the scenario's obstacles as perfect tracks. They move from the run's t = 0 on, which the planner's status
-/// tells; until then they wait where they are at t = 0, announced with the velocity that they will have.
+/// Publishes the scenario's obstacles as perfect tracks, over a link that delays and loses them as the parameters of
+/// the simulation say. They move from the run's t = 0 on, which the planner's status tells; until then they wait where
+/// they are at t = 0, announced with the velocity that they will have.
 class ObstacleSimNode {
  public:
   explicit ObstacleSimNode(const Mission& mission);
 
  private:
   void receiveStatus(const PlannerStatus& status);
+  void measure();
   void publish();
 
   std::vector<Superellipsoid> obstacles_;  ///< at t = 0
   std::optional<double> time_zero_;        ///< [s]
-  ObstacleTrackArray message_;
+  std::string frame_id_;
+  MessageLink<ObstacleTrackArray> link_;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
   ros::Subscriber status_subscriber_;
-  ros::Timer timer_;
+  ros::Timer measurement_timer_, publication_timer_;
 };
 
 }  // namespace swarm_planner

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <ros/subscriber.h>
@@ -20,13 +21,15 @@
 #include "swarm_planner/ros/quad_sim_options.hpp"
 #include "swarm_planner/ros/run_report.hpp"
 #include "swarm_planner/ros/sim_clock.hpp"
+#include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/simulation/quad_simulator.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
 namespace swarm_planner {
 
 /// Flies every UAV of the scenario on the trajectories that it receives, publishes odometry and tf, makes /clock at
-/// speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to the scenario's end.
+/// speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to the scenario's end. Trajectories
+/// and odometry go over links that delay and lose them as the parameters of the simulation say.
 class QuadSimNode {
  public:
   QuadSimNode(const Mission& mission, const QuadSimOptions& options);
@@ -41,10 +44,12 @@ class QuadSimNode {
   void receiveTrajectory(std::size_t uav, const trajectory_msgs::MultiDOFJointTrajectory& message);
   void receiveTracks(const ObstacleTrackArray& message);
   void receiveStatus(const PlannerStatus& status);
+  void deliverTrajectories(std::size_t uav);
   void catchUp();
   void restartClock(double now);
   void advance();
-  void publishOdometry();
+  void measure();
+  void publishOdometry(std::size_t uav);
   void observe();
   void endRun(const std::string& ended_by);
 
@@ -52,6 +57,8 @@ class QuadSimNode {
   const QuadSimOptions options_;
   SimClock clock_;
   std::vector<QuadSimulator> quads_;
+  std::vector<MessageLink<SetpointTrajectory>> trajectory_links_;
+  std::vector<MessageLink<nav_msgs::Odometry>> odometry_links_;
   std::vector<TrackedObstacle> obstacles_;  ///< the truth: as last received, or as in the scenario
 
   double origin_ = 0.0;         ///< simulated time at which steps are counted from [s]

@@ -4,14 +4,15 @@
 #include <cstdint>
 
 #include "swarm_planner/config/types.hpp"
+#include "swarm_planner/simulation/random_stream.hpp"
 
 namespace swarm_planner {
 
-/// A stream of independent standard normal numbers (xoshiro256++ and the polar method). The standard library's
-/// distributions differ between implementations: with this one a seed gives the same run everywhere.
+/// A stream of independent standard normal numbers (the polar method). The standard library's distributions differ
+/// between implementations: with this one a seed gives the same run everywhere.
 class GaussianNoise {
  public:
-  explicit GaussianNoise(std::uint64_t seed);
+  explicit GaussianNoise(std::uint64_t seed) : stream_(seed) {}
 
   /// Mean 0, standard deviation 1.
   double next();
@@ -19,10 +20,7 @@ class GaussianNoise {
   Vector3 vector(double sigma);
 
  private:
-  std::uint64_t nextBits();
-  double nextUniform();  ///< in [-1, 1)
-
-  std::uint64_t state_[4];
+  RandomStream stream_;
   double spare_ = 0.0;
   bool has_spare_ = false;
 };

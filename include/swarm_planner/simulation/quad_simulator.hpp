@@ -6,6 +6,7 @@
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/model/dynamics.hpp"
 #include "swarm_planner/simulation/gaussian_noise.hpp"
+#include "swarm_planner/simulation/gusts.hpp"
 #include "swarm_planner/simulation/setpoint_track.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
@@ -19,10 +20,12 @@ namespace swarm_planner {
 ///   phi, theta, T from A by (4) and (5), after A is limited to what the rotors and max_tilt allow;
 ///   angular accelerations: those of the flat inputs plus attitude_gain and attitude_rate_gain on the errors.
 /// Rotor speeds saturate at [0, max_rotor_speed]. The state stays finite whatever is received.
+///
+/// Gusts of wind velocity w act through the drag of (1), -(k_d / M) (v - w); the controller does not know of them.
 class QuadSimulator {
  public:
-  /// Hovers at `start` [m]. `seed` is that of the sensor noise; give each UAV its own.
-  QuadSimulator(const Parameters& parameters, const Vector3& start, std::uint64_t seed);
+  /// Hovers at `start` [m]. `seed` is that of the run; sensor noise, bias and gusts are those of UAV `index` in it.
+  QuadSimulator(const Parameters& parameters, const Vector3& start, std::uint64_t seed, std::size_t index = 0);
 
   /// A trajectory has arrived; it takes over at its epoch (see SetpointTrack). False, and the vehicle flies on as
   /// before, if it holds a non-finite number, no points, or times that do not increase.
@@ -35,7 +38,8 @@ class QuadSimulator {
   /// Time has jumped: sets the clock to `t` [s], forgets every trajectory and holds the present position.
   void resetClock(double t);
 
-  /// An acceleration [m/s^2] that acts on the vehicle from now on (wind). Throws std::invalid_argument if not finite.
+  /// An acceleration [m/s^2] that acts on the vehicle from now on, beside the gusts. Throws std::invalid_argument if it
+  /// is not finite.
   void setDisturbance(const Vector3& acceleration);
 
   double time() const { return time_; }
@@ -54,11 +58,16 @@ class QuadSimulator {
   /// Distance of the vehicle from its setpoint at time() [m].
   double trackingError() const { return (setpoint().p - state_.p).norm(); }
 
-  /// Position and velocity with sensor noise, stamped time(). Each call draws new noise.
+  /// Wind velocity in the last step [m/s].
+  const Vector3& wind() const { return wind_; }
+
+  /// Position with the UAV's bias, and velocity, both with sensor noise; stamped time(). Each call draws new noise.
   UavMeasurement measure();
 
  private:
+  void setClock(double t);
   void control();
+  Vector3 externalAcceleration() const;                                  ///< of gusts and disturbance [m/s^2]
   double attitudeFeedback(double angle_error, double rate_error) const;  ///< angular acceleration [rad/s^2]
   Vector3 limitedThrustAcceleration(const Vector3& wanted) const;
 
@@ -70,8 +79,11 @@ class QuadSimulator {
   Vector4 rotor_speeds_ = Vector4::Zero();
   bool saturated_ = false;
   Vector3 disturbance_ = Vector3::Zero();
+  Gusts gusts_;
+  Vector3 wind_ = Vector3::Zero();
   SetpointTrack setpoints_;
-  GaussianNoise noise_;
+  GaussianNoise position_noise_, velocity_noise_;
+  Vector3 position_bias_;  ///< [m]
 };
 
 }  // namespace swarm_planner

@@ -8,8 +8,8 @@
 
 namespace swarm_planner {
 
-/// The tables that the generated solver computes beforehand, for every model that the QPs will have. Read-only once made:
-/// all threads share them.
+/// The tables that the generated solver computes beforehand, for every model that the QPs will have. Read-only once
+/// made: all threads share them.
 class GeneratedTables {
  public:
   /// Throws std::invalid_argument if a model's weights do not make a strictly convex problem.

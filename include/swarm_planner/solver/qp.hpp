@@ -107,7 +107,7 @@ struct QpStage {
 struct Qp {
   QpModel model;
   std::array<OutputGains, kOutputCount> outputs;  ///< the model's
-  Matrix3 axes = Matrix3::Identity();  ///< orthonormal columns, in which the position weights hold
+  Matrix3 axes = Matrix3::Identity();             ///< orthonormal columns, in which the position weights hold
   KinematicState start;
   int curvature_count = 0;
   std::array<QpCurvature, kMaxCurvatures> curvatures;
@@ -120,6 +120,8 @@ struct Qp {
   /// Appends a curvature term; false if there is no room for it.
   bool addCurvature(int stage, const Vector3& n, double weight);
   int rowCount() const;
+  /// Objective of a plan, a roll-out of its jerks from `start`, with every row's slack at its best.
+  double objective(const Trajectory& plan) const;
   /// Hessian in the position of stage 1..N: weights along the axes plus curvature terms.
   Matrix3 positionHessian(int stage) const;
 };

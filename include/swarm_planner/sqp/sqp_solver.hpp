@@ -24,8 +24,8 @@ class SqpSolver {
   /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
   explicit SqpSolver(std::unique_ptr<QpSolver> qp_solver);
 
-  /// Improves `plan`, which has to start at problem.start (a roll-out of any jerks). `active`: a guess of the first QP's
-  /// active rows, which may be empty; afterwards those of the last QP.
+  /// Improves `plan`, which has to start at problem.start (a roll-out of any jerks). `active`: a guess of the first
+  /// QP's active rows, which may be empty; afterwards those of the last QP.
   SqpResult solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active);
 
  private:

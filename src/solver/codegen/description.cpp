@@ -1,145 +1,43 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/solver/codegen/description.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
+
+#include "description_reader.hpp"
 
 namespace swarm_planner {
 namespace codegen {
 namespace {
 
-constexpr int kLargestSize = 100000;
-
-bool isIdentifier(const std::string& name) {
-  if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;
-  return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-}
-
-/// Reads one description and collects its faults.
-class Reader {
+/// Reads one description of the kind with stages.
+class Reader : private DescriptionReader {
  public:
-  Description read(const std::string& text) {
-    YAML::Node root;
-    try {
-      root = YAML::Load(text);
-    } catch (const YAML::Exception& error) {
-      throw DescriptionError(error.what());
-    }
-    if (!root.IsMap()) throw DescriptionError("expected a map at the top of the description");
+  Description read(const YAML::Node& root) {
     readAll(root);
-    if (!faults_.str().empty()) throw DescriptionError(faults_.str());
+    throwFaults();
     out_.hash = fnv1a(canonicalText());
     return out_;
   }
 
  private:
-  void fault(const std::string& key, const std::string& message) { faults_ << key << ": " << message << "\n"; }
-
   void readAll(const YAML::Node& root) {
-    allowKeys(root, "", {"name", "horizon", "states", "inputs", "parameters", "dynamics", "cost", "outputs",
-                         "penalties", "limits", "instruction_sets"});
-    if (root["name"]) out_.name = root["name"].as<std::string>("");
-    if (!isIdentifier(out_.name)) fault("name", "expected a C identifier");
+    allowKeys(root, "",
+              {"name", "horizon", "states", "inputs", "parameters", "dynamics", "cost", "outputs", "penalties",
+               "limits", "instruction_sets"});
+    out_.name = readName(root);
     out_.horizon = integer(root, "", "horizon", 1);
     out_.states = integer(root, "", "states", 1);
     out_.inputs = integer(root, "", "inputs", 1);
-    if (!faults_.str().empty()) return;
-    readParameters(root["parameters"]);
+    if (faulty()) return;
+    out_.parameters = readParameters(root["parameters"]);
     readDynamics(root["dynamics"]);
     readCost(root["cost"]);
-    readPenalties(root["penalties"]);
+    out_.penalties = readPenalties(root["penalties"]);
     readOutputs(root["outputs"]);
     readLimits(root["limits"]);
-    readInstructionSets(root["instruction_sets"]);
-  }
-
-  void allowKeys(const YAML::Node& node, const std::string& where, const std::set<std::string>& keys) {
-    if (!node || !node.IsMap()) return;
-    for (const auto& item : node) {
-      const std::string key = item.first.as<std::string>("");
-      if (keys.count(key) == 0) fault(where + key, "unknown key");
-    }
-  }
-
-  int integer(const YAML::Node& node, const std::string& where, const std::string& key, int least, int fallback = -1) {
-    if (!node || !node[key]) {
-      if (fallback < 0) fault(where + key, "missing");
-      return std::max(fallback, least);
-    }
-    const int value = node[key].as<int>(-1);
-    if (value < least || value > kLargestSize) {
-      fault(where + key, "expected a whole number from " + std::to_string(least));
-      return least;
-    }
-    return value;
-  }
-
-  Expression number(const YAML::Node& node, const std::string& where) {
-    try {
-      if (node && node.IsScalar()) return Expression::parse(node.Scalar(), parameters_);
-      fault(where, "expected a number or a formula");
-    } catch (const std::invalid_argument& error) {
-      fault(where, error.what());
-    }
-    return 0.0;
-  }
-
-  std::vector<Expression> list(const YAML::Node& node, const std::string& where) {
-    std::vector<Expression> result;
-    if (!node || !node.IsSequence()) {
-      fault(where, "expected a list");
-      return result;
-    }
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      result.push_back(number(node[i], where + "[" + std::to_string(i) + "]"));
-    }
-    return result;
-  }
-
-  /// A matrix is a list of rows, {diagonal: [...]}, {identity: n} or {kron: [matrix, matrix]}.
-  ExpressionMatrix matrix(const YAML::Node& node, const std::string& where) {
-    if (node && node.IsMap()) {
-      allowKeys(node, where + ".", {"diagonal", "identity", "kron"});
-      if (node["identity"]) return diagonal(std::vector<Expression>(
-                                static_cast<std::size_t>(integer(node, where + ".", "identity", 1)), Expression(1.0)));
-      if (node["diagonal"]) return diagonal(list(node["diagonal"], where + ".diagonal"));
-      if (node["kron"] && node["kron"].IsSequence() && node["kron"].size() == 2) {
-        return kroneckerProduct(matrix(node["kron"][0], where + ".kron[0]"), matrix(node["kron"][1], where + ".kron[1]"));
-      }
-    }
-    if (!node || !node.IsSequence() || node.size() == 0) {
-      fault(where, "expected a list of rows, {diagonal: [...]}, {identity: n} or {kron: [matrix, matrix]}");
-      return {};
-    }
-    return denseMatrix(node, where);
-  }
-
-  ExpressionMatrix denseMatrix(const YAML::Node& node, const std::string& where) {
-    ExpressionMatrix result;
-    result.rows = static_cast<int>(node.size());
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      const std::vector<Expression> row = list(node[i], where + "[" + std::to_string(i) + "]");
-      if (i == 0) result.columns = static_cast<int>(row.size());
-      if (static_cast<int>(row.size()) != result.columns) {
-        fault(where, "rows differ in length");
-        return {};
-      }
-      result.entries.insert(result.entries.end(), row.begin(), row.end());
-    }
-    return result;
-  }
-
-  static ExpressionMatrix diagonal(const std::vector<Expression>& entries) {
-    const int n = static_cast<int>(entries.size());
-    ExpressionMatrix result(n, n);
-    for (int i = 0; i < n; ++i) result(i, i) = entries[static_cast<std::size_t>(i)];
-    return result;
+    out_.instruction_sets = readInstructionSets(root["instruction_sets"]);
   }
 
   ExpressionMatrix sized(const YAML::Node& parent, const std::string& where, const std::string& key, int rows,
@@ -155,22 +53,6 @@ class Reader {
       return ExpressionMatrix(rows, columns);
     }
     return result;
-  }
-
-  void readParameters(const YAML::Node& node) {
-    if (!node) return;
-    if (!node.IsMap()) {
-      fault("parameters", "expected a map from names to default values");
-      return;
-    }
-    for (const auto& item : node) {
-      const std::string name = item.first.as<std::string>("");
-      const double value = item.second.as<double>(std::nan(""));
-      if (!isIdentifier(name)) fault("parameters." + name, "expected a C identifier");
-      if (!std::isfinite(value)) fault("parameters." + name, "expected a finite number");
-      if (!parameters_.emplace(name, value).second) fault("parameters." + name, "given twice");
-      out_.parameters.emplace_back(name, value);
-    }
   }
 
   void readDynamics(const YAML::Node& node) {
@@ -205,34 +87,9 @@ class Reader {
     return m;
   }
 
-  void readPenalties(const YAML::Node& node) {
-    if (!node) return;
-    if (!node.IsMap()) {
-      fault("penalties", "expected a map from names to {linear, quadratic}");
-      return;
-    }
-    for (const auto& item : node) {
-      Penalty penalty;
-      penalty.name = item.first.as<std::string>("");
-      const std::string where = "penalties." + penalty.name + ".";
-      if (!isIdentifier(penalty.name)) fault("penalties." + penalty.name, "expected a C identifier");
-      allowKeys(item.second, where, {"linear", "quadratic"});
-      penalty.linear = number(item.second["linear"], where + "linear");
-      penalty.quadratic = number(item.second["quadratic"], where + "quadratic");
-      if (penalty.linear.value() < 0.0) fault(where + "linear", "expected at least 0");
-      if (!(penalty.quadratic.value() > 0.0)) fault(where + "quadratic", "expected more than 0");
-      out_.penalties.push_back(penalty);
-    }
-  }
-
   int penaltyIndex(const YAML::Node& node, const std::string& where) {
     if (!node["penalty"]) return -1;
-    const std::string name = node["penalty"].as<std::string>("");
-    for (std::size_t i = 0; i < out_.penalties.size(); ++i) {
-      if (out_.penalties[i].name == name) return static_cast<int>(i);
-    }
-    fault(where + "penalty", "no penalty is called \"" + name + "\"");
-    return -1;
+    return findPenalty(out_.penalties, node["penalty"].as<std::string>(""), where + "penalty");
   }
 
   void readOutputs(const YAML::Node& node) {
@@ -301,17 +158,6 @@ class Reader {
     if (out_.max_quadratic > out_.max_active) fault("limits.quadratic_terms", "exceeds limits.active");
   }
 
-  void readInstructionSets(const YAML::Node& node) {
-    const std::vector<std::string> known{"baseline", "avx2", "avx512"};
-    if (!node) out_.instruction_sets = known;
-    for (const auto& item : node) {
-      const std::string name = item.as<std::string>("");
-      if (std::count(known.begin(), known.end(), name) == 0) fault("instruction_sets", "unknown: \"" + name + "\"");
-      out_.instruction_sets.push_back(name);
-    }
-    if (out_.instruction_sets.empty()) fault("instruction_sets", "expected at least one");
-  }
-
   static void append(std::ostringstream& text, const char* key, const ExpressionMatrix& m) {
     text << key << m.rows << 'x' << m.columns;
     for (const Expression& e : m.entries) text << ',' << e.code();
@@ -343,15 +189,7 @@ class Reader {
     return text.str();
   }
 
-  static std::uint64_t fnv1a(const std::string& text) {
-    std::uint64_t hash = 14695981039346656037ull;
-    for (const unsigned char c : text) hash = (hash ^ c) * 1099511628211ull;
-    return hash;
-  }
-
   Description out_;
-  std::map<std::string, double> parameters_;
-  std::ostringstream faults_;
 };
 
 }  // namespace
@@ -360,15 +198,9 @@ bool Output::touchesInput() const {
   return std::any_of(input.entries.begin(), input.entries.end(), [](const Expression& e) { return !e.isZero(); });
 }
 
-Description parseDescription(const std::string& yaml_text) { return Reader().read(yaml_text); }
+Description parseDescription(const std::string& yaml_text) { return Reader().read(parseMap(yaml_text)); }
 
-Description loadDescription(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) throw DescriptionError(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parseDescription(text.str());
-}
+Description loadDescription(const std::string& path) { return parseDescription(readText(path)); }
 
 }  // namespace codegen
 }  // namespace swarm_planner

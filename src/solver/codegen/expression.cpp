@@ -145,7 +145,8 @@ class ExpressionParser {
 
   Expression parameter() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_')) ++at_;
+    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
+      ++at_;
     const std::string name = text_.substr(begin, at_ - begin);
     const auto found = parameters_.find(name);
     if (found == parameters_.end()) {

@@ -1,31 +1,18 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
 #include <sstream>
 
 #include "swarm_planner/solver/codegen/generator.hpp"
+#include "write_common.hpp"
 
 namespace swarm_planner {
 namespace codegen {
 namespace {
 
-constexpr int kWidth = 8;       // doubles of the widest vector
-constexpr int kFewRows = 8;     // outputs with fewer rows a stage are scanned across the stages
+constexpr int kWidth = 8;    // doubles of the widest vector
+constexpr int kFewRows = 8;  // outputs with fewer rows a stage are scanned across the stages
 
 int roundUp(int n, int to) { return (n + to - 1) / to * to; }
-
-std::string upperCase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  return text;
-}
-
-void define(std::ostringstream& out, const std::string& name, int value, const std::string& comment = "") {
-  out << "#define QPC_" << name << ' ' << value;
-  if (!comment.empty()) out << " /* " << comment << " */";
-  out << '\n';
-}
 
 void findBoundRanges(const Description& d, const Structure& s, Layout& layout) {
   for (int channel = 0; channel < s.channels; ++channel) {
@@ -69,9 +56,7 @@ Layout makeLayout(const Description& d, const Structure& s) {
 
 std::string writeSizes(const Description& d, const Structure& s, const Layout& layout) {
   std::ostringstream out;
-  char hash[32];
-  std::snprintf(hash, sizeof hash, "0x%016llxu", static_cast<unsigned long long>(d.hash));
-  out << "#define QPC_HASH " << hash << " /* of the description; setup compares it with the caller's */\n";
+  writeHash(out, d.hash);
   define(out, "HORIZON", d.horizon, "N");
   define(out, "STATES", d.states);
   define(out, "INPUTS", d.inputs);
@@ -89,6 +74,7 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "CHANNELS", s.channels, "output components of a block");
   define(out, "POINTS", layout.points, "channels times stages");
   define(out, "POINTS_PADDED", layout.points_padded);
+  define(out, "TILES", layout.points_padded / (2 * kWidth), "parts of a block's outputs that are computed as one");
   define(out, "RESPONSE_PADDED", roundUp(d.horizon * s.block_inputs, kWidth));
   define(out, "ROW_SLOTS", std::max(layout.row_slots, kWidth));
   define(out, "GROUPS", std::max(layout.groups, 1));
@@ -104,7 +90,8 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "GAINS", d.inputs * z);
   define(out, "LOWERS", std::max(1, d.inputs * (d.inputs + 1) / 2));
   define(out, "WEIGHTS", s.components * (s.components + 1) / 2);
-  out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). */\n";
+  out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). "
+         "*/\n";
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     const std::string name = upperCase(d.outputs[o].name);
     define(out, "OUTPUT_" + name, static_cast<int>(o));
@@ -114,17 +101,8 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
     out << "#define QPC_SLOT_" << name << "(index, i) (" << layout.first_slot[o] << " + (index) * "
         << layout.stage_stride[o] << " + (i) * " << layout.row_stride[o] << ")\n";
   }
-  out << "\n/* Penalties. */\n";
-  define(out, "HARD", 0);
-  for (std::size_t i = 0; i < d.penalties.size(); ++i) {
-    define(out, "PENALTY_" + upperCase(d.penalties[i].name), static_cast<int>(i) + 1);
-  }
-  out << "\n/* What set-up may change. */\ntypedef struct {\n";
-  for (const auto& parameter : d.parameters) {
-    out << "  double " << parameter.first << "; /* " << toCode(parameter.second) << " */\n";
-  }
-  if (d.parameters.empty()) out << "  double none;\n";
-  out << "} qpc_parameters;\n";
+  writePenaltyNames(out, d.penalties);
+  writeParameterStruct(out, d.parameters);
   return out.str();
 }
 
@@ -140,7 +118,8 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
     first_stage.push_back(output.touchesInput() ? 0 : 1);
     most_rows.push_back(output.max_rows);
   }
-  out << "/* Appends the row normal . y >= offset on an output's value at a stage; returns its identity (as in active_id\n"
+  out << "/* Appends the row normal . y >= offset on an output's value at a stage; returns its identity (as in "
+         "active_id\n"
          "   and warm_id), or -1 if the stage does not have the output or no more rows. */\n"
          "static inline int qpc_add_row(qpc_solver* s, int output, int stage, const double* normal, double offset,\n"
          "                              int penalty) {\n";
@@ -156,8 +135,7 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     out << "      {";
     for (std::size_t c = 0; c < s.output_block[o].size(); ++c) {
-      out << (c > 0 ? ", " : "")
-          << s.output_block[o][c] * layout.points_padded + s.output_channel[o][c] * d.horizon;
+      out << (c > 0 ? ", " : "") << s.output_block[o][c] * layout.points_padded + s.output_channel[o][c] * d.horizon;
     }
     out << "},\n";
   }

@@ -14,10 +14,10 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 /// atoms of C code.
 struct StageMatrices {
   int z = 0, u = 0;
-  AtomMatrix a, b;             ///< z+ = a z + b u
-  AtomMatrix q, terminal;      ///< z' q z
-  AtomMatrix r;                ///< u' r u, rate included
-  AtomMatrix cross;            ///< u' cross z
+  AtomMatrix a, b;         ///< z+ = a z + b u
+  AtomMatrix q, terminal;  ///< z' q z
+  AtomMatrix r;            ///< u' r u, rate included
+  AtomMatrix cross;        ///< u' cross z
 };
 
 class StageBuilder {
@@ -98,8 +98,7 @@ class StageBuilder {
 /// Writes the recursion of the interior-point method for one description.
 class RiccatiWriter {
  public:
-  RiccatiWriter(const Description& d, const Structure& s)
-      : d_(d), builder_(d, s), m_(builder_.build()) {
+  RiccatiWriter(const Description& d, const Structure& s) : d_(d), builder_(d, s), m_(builder_.build()) {
     for (int o = 0; o < static_cast<int>(d.outputs.size()); ++o) {
       c_.push_back(builder_.output(o, true));
       d_matrix_.push_back(builder_.output(o, false));
@@ -183,7 +182,8 @@ class RiccatiWriter {
     for (int i = 0; i < m_.u; ++i) {
       for (int j = 0; j < m_.z; ++j) code.store("s->ip_gain[k][" + std::to_string(i * m_.z + j) + "]", gain(i, j));
       code.store("s->ip_pivot[k][" + std::to_string(i) + "]", factor.inverse[at(i)]);
-      for (int j = 0; j < i; ++j) code.store("s->ip_lower[k][" + std::to_string(packed(i, j)) + "]", factor.lower(i, j));
+      for (int j = 0; j < i; ++j)
+        code.store("s->ip_lower[k][" + std::to_string(packed(i, j)) + "]", factor.lower(i, j));
     }
     return result;
   }
@@ -211,7 +211,8 @@ class RiccatiWriter {
   }
 
   void writeFactor() {
-    out_ << "/* Riccati recursion with the weights of rows and bounds; stage by stage, gains and factors of the inputs'\n"
+    out_ << "/* Riccati recursion with the weights of rows and bounds; stage by stage, gains and factors of the "
+            "inputs'\n"
             "   Hessian. 0 if a pivot is not positive. */\n"
             "static int qpc_ip_factor(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n";
     for (int i = 0; i < m_.z; ++i) {
@@ -266,7 +267,8 @@ class RiccatiWriter {
   }
 
   void writeBackward() {
-    out_ << "/* Costates of the cost's gradient at the iterate and the forces of rows and bounds, and the constant parts of\n"
+    out_ << "/* Costates of the cost's gradient at the iterate and the forces of rows and bounds, and the constant "
+            "parts of\n"
             "   the inputs' steps. */\n"
             "static void qpc_ip_backward(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n";
     for (int i = 0; i < m_.z; ++i) {

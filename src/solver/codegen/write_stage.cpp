@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "swarm_planner/solver/codegen/generator.hpp"
+#include "write_common.hpp"
 
 namespace swarm_planner {
 namespace codegen {
@@ -76,7 +77,8 @@ void meet(LaneEntry& entry, const Expression& value) {
 
 void writeChannels(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* Every channel's value: of the state alone at the next stage, with the input at this one. */\n"
-         "QPC_FUNCTION void qpc_channels(const qpc_tables* t, const qpc_lane* z, const qpc_lane* next, const qpc_lane* u,\n"
+         "QPC_FUNCTION void qpc_channels(const qpc_tables* t, const qpc_lane* z, const qpc_lane* next, const qpc_lane* "
+         "u,\n"
          "                               qpc_lane* channel) {\n  (void)t;\n  (void)z;\n  (void)next;\n  (void)u;\n";
   for (int channel = 0; channel < s.channels; ++channel) {
     LaneSum sum;
@@ -118,7 +120,8 @@ void writeGather(std::ostringstream& out, const Description& d, const Structure&
   out << "  for (int k = 0; k < QPC_HORIZON; ++k) {\n"
          "    qpc_clear(&q[k][0][0], QPC_BLOCK_STATES * QPC_LANES);\n";
   for (int i = 0; i < d.states; ++i) {
-    out << "    q[k]" << brackets(s.state_index[at(i)], s.state_block[at(i)]) << " = s->state_linear[k][" << i << "];\n";
+    out << "    q[k]" << brackets(s.state_index[at(i)], s.state_block[at(i)]) << " = s->state_linear[k][" << i
+        << "];\n";
   }
   if (d.input_linear) {
     out << "    qpc_clear(&r[k][0][0], QPC_BLOCK_INPUTS * QPC_LANES);\n";
@@ -144,10 +147,10 @@ void addScalarTerm(std::ostringstream& out, bool& first, const Expression& entry
 
 void writeOrderedInputs(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* Inputs in the caller's order. */\n"
-         "static void qpc_order_inputs(qpc_solver* s, double (*u)[QPC_INPUTS]) {\n"
+         "static void qpc_order_inputs(const double (*input)[QPC_RESPONSE_PADDED], double (*u)[QPC_INPUTS]) {\n"
          "  for (int k = 0; k < QPC_HORIZON; ++k) {\n";
   for (int i = 0; i < d.inputs; ++i) {
-    out << "    u[k][" << i << "] = s->free_input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
+    out << "    u[k][" << i << "] = input[" << s.input_block[at(i)] << "][k * QPC_BLOCK_INPUTS + "
         << s.input_index[at(i)] << "];\n";
   }
   out << "  }\n}\n\n";
@@ -234,12 +237,8 @@ std::string writeConstants(const Description& d, const Structure& s, const Layou
 
 std::string writeEvaluate(const Description& d, const Structure& s) {
   std::ostringstream out;
-  out << "void qpc_function(default_parameters)(qpc_parameters* p) {\n";
-  for (const auto& parameter : d.parameters) {
-    out << "  p->" << parameter.first << " = " << toCode(parameter.second) << ";\n";
-  }
-  if (d.parameters.empty()) out << "  p->none = 0.0;\n";
-  out << "}\n\n/* The description's numbers for these parameters; what is not assigned is zero. */\n"
+  writeDefaultParameters(out, d.parameters);
+  out << "\n/* The description's numbers for these parameters; what is not assigned is zero. */\n"
          "static void qpc_evaluate(qpc_tables* t, const qpc_parameters* p) {\n  (void)p;\n";
   for (int b = 0; b < s.lanes; ++b) {
     const Block block = b < s.blockCount() ? s.blocks[at(b)] : Block();
@@ -257,11 +256,15 @@ std::string writeEvaluate(const Description& d, const Structure& s) {
       const Output& output = d.outputs[at(block.channels[i].first)];
       for (std::size_t j = 0; j < block.states.size(); ++j) {
         const Expression& entry = output.state(block.channels[i].second, block.states[j]);
-        if (!entry.isZero()) out << "  t->c" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code() << ";\n";
+        if (!entry.isZero())
+          out << "  t->c" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code()
+              << ";\n";
       }
       for (std::size_t j = 0; j < block.inputs.size(); ++j) {
         const Expression& entry = output.input(block.channels[i].second, block.inputs[j]);
-        if (!entry.isZero()) out << "  t->d" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code() << ";\n";
+        if (!entry.isZero())
+          out << "  t->d" << brackets(static_cast<int>(i), static_cast<int>(j)) << "[" << b << "] = " << entry.code()
+              << ";\n";
       }
     }
   }

@@ -65,12 +65,15 @@ struct Description {
   bool input_linear = false;       ///< the linear term r_k is run-time data
   std::vector<Output> outputs;
   std::vector<Penalty> penalties;
-  int max_quadratic = 0;  ///< most run-time terms 1/2 w (n . y - c)^2 of a solve
-  int max_active = 64;    ///< most rows active at a time
-  int max_changes = 400;  ///< most changes of the active set
+  int max_quadratic = 0;                      ///< most run-time terms 1/2 w (n . y - c)^2 of a solve
+  int max_active = 64;                        ///< most rows active at a time
+  int max_changes = 400;                      ///< most changes of the active set
   std::vector<std::string> instruction_sets;  ///< of "baseline", "avx2", "avx512"
-  std::uint64_t hash = 0; ///< of everything above but instruction_sets
+  std::uint64_t hash = 0;                     ///< of everything above but instruction_sets
 };
+
+/// A file's text. @throws DescriptionError if it cannot be read
+std::string readText(const std::string& path);
 
 /// @throws DescriptionError with every fault found
 Description parseDescription(const std::string& yaml_text);

@@ -49,7 +49,8 @@ class StraightLine {
   AtomMatrix product(const AtomMatrix& x, const AtomMatrix& y);
   AtomMatrix product(const AtomMatrix& x, const AtomMatrix& y, const AtomMatrix& start, bool subtract = false);
   /// x' y + start, or start - x' y
-  AtomMatrix transposedProduct(const AtomMatrix& x, const AtomMatrix& y, const AtomMatrix& start, bool subtract = false);
+  AtomMatrix transposedProduct(const AtomMatrix& x, const AtomMatrix& y, const AtomMatrix& start,
+                               bool subtract = false);
   /// x' y + start (or start - x' y), known to be symmetric: only one triangle is computed.
   AtomMatrix congruenceOf(const AtomMatrix& x, const AtomMatrix& y, const AtomMatrix& start, bool subtract = false);
   Atom multiply(const Atom& x, const Atom& y);

@@ -29,10 +29,10 @@ struct Structure {
   std::vector<int> class_representative;  ///< one block per class
   int block_states = 0;                   ///< most states of a block; smaller blocks are padded
   int block_inputs = 0;
-  int channels = 0;                       ///< channels of every block, filled up
-  int state_channels = 0;                 ///< those that depend on the state alone, stages 1..N
-  int components = 0;                     ///< most components of an output
-  int lanes = 1;                          ///< blocks, rounded up to a power of two
+  int channels = 0;                           ///< channels of every block, filled up
+  int state_channels = 0;                     ///< those that depend on the state alone, stages 1..N
+  int components = 0;                         ///< most components of an output
+  int lanes = 1;                              ///< blocks, rounded up to a power of two
   std::vector<int> state_block, state_index;  ///< where a state went
   std::vector<int> input_block, input_index;
   std::vector<std::vector<int>> output_block;    ///< [output][component]

@@ -15,7 +15,7 @@
 #define QPC_PASTE_EXPANDED(name, set) QPC_PASTE(name, set)
 #define qpc_function(name) QPC_PASTE_EXPANDED(name, QPC_SET)
 
-#define QPC_FUNCTION static inline __attribute__((always_inline))
+#define QPC_FUNCTION static inline __attribute__((always_inline, unused))
 
 /* Vectors of the instruction set that this object is compiled for. Loads and stores need no alignment. */
 #if defined(__AVX512F__)
@@ -28,7 +28,8 @@
 typedef double qpc_vector __attribute__((vector_size(QPC_WIDTH * 8)));
 typedef double qpc_vector_memory __attribute__((vector_size(QPC_WIDTH * 8), aligned(8), may_alias));
 typedef int64_t qpc_mask __attribute__((vector_size(QPC_WIDTH * 8)));
-#define QPC_TILE (QPC_WIDTH == 8 && QPC_POINTS_PADDED % 32 == 0 ? 4 : 2) /* vectors per block that are summed in registers; QPC_POINTS_PADDED is a multiple */
+#define QPC_TILE_POINTS (QPC_POINTS_PADDED / QPC_TILES) /* points of a block that are summed in registers */
+#define QPC_TILE (QPC_TILE_POINTS / QPC_WIDTH)
 #define QPC_LOAD(pointer) (*(const qpc_vector_memory*)(pointer))
 #define QPC_STORE(pointer, value) (*(qpc_vector_memory*)(pointer) = (value))
 #define QPC_BROADCAST(value) ((value) - (qpc_vector){0})
@@ -58,6 +59,17 @@ static int qpc_is_finite(double value) {
   } view;
   view.number = value;
   return (view.bits & 0x7ff0000000000000u) != 0x7ff0000000000000u;
+}
+
+static double qpc_magnitude(double value) { return value < 0.0 ? -value : value; }
+
+/* Square root; 0 for a number that is not positive. */
+static double qpc_root(double square) {
+  double root = 1.0;
+  while (square > 0.0 && root * root < square) root *= 2.0;
+  while (square > 0.0 && root * root > 4.0 * square) root *= 0.5;
+  for (int i = 0; i < 6 && square > 0.0; ++i) root = 0.5 * (root + square / root);
+  return square > 0.0 ? root : 0.0;
 }
 
 static void qpc_clear(double* first, int count) {

@@ -1,9 +1,14 @@
 /* ---- Interior point: primal-dual, predictor and corrector. ----
    Every row has room = n . y + slack - offset >= 0 with its multiplier, and, if it is soft, slack >= 0 with the
    multiplier reserve = linear + quadratic slack - multiplier. Eliminating all four from Newton's equations leaves a
-   weight n n' / (room / multiplier + slack / (quadratic slack + reserve)) on the row's output and a force along n: the
-   problem without rows, with other costs, which the Riccati recursion solves. */
+   weight n n' / (room / multiplier + slack / (quadratic slack + reserve) + proximal) on the row's output and a force
+   along n: the problem without rows, with other costs, which the Riccati recursion solves.
 
+   `proximal` bounds the weights, without which the recursion may run out of digits: each step is that of a proximal
+   method of multipliers, n . y + slack - room = offset - proximal (step of the multiplier). The optimum is the same, but
+   takes more steps where rows depend on each other, so it is 0 until the digits do run out. */
+
+#define QPC_IP_FRACTION 0.995 /* of the way to the boundary that a step may go */
 #define QPC_IP_START 1.0 /* each complementarity at the start, in units of the cost */
 
 enum { QPC_LAMBDA, QPC_ROOM, QPC_SLACK, QPC_RESERVE };
@@ -30,9 +35,10 @@ QPC_FUNCTION double qpc_sum(qpc_vector v) {
 QPC_FUNCTION qpc_vector qpc_only(qpc_mask mask, qpc_vector v) { return (qpc_vector)(mask & (qpc_mask)v); }
 
 /* Takes a step, and refreshes what depends on the variables. Returns the sum of the complementarities, which is the
-   duality gap once the residuals have vanished. */
-static double qpc_ip_advance(qpc_solver* s, double step) {
-  qpc_vector gap = {0};
+   duality gap once the residuals have vanished; `residual` is the largest of these, `price` what they all cost. From
+   then on rows give way by `give`. */
+static double qpc_ip_advance(qpc_solver* s, double step, double give, double* residual, double* price) {
+  qpc_vector gap = {0}, largest = {0}, cost = {0};
   for (int e = 0; e < s->ip_count; e += QPC_WIDTH) {
     qpc_vector v[4];
     for (int i = 0; i < 4; ++i) {
@@ -41,10 +47,21 @@ static double qpc_ip_advance(qpc_solver* s, double step) {
     }
     gap += v[QPC_LAMBDA] * v[QPC_ROOM] + v[QPC_SLACK] * v[QPC_RESERVE];
     const qpc_vector inverse_reserve = 1.0 / (QPC_LOAD(&s->ip_quadratic[e]) * v[QPC_SLACK] + v[QPC_RESERVE]);
-    QPC_STORE(&s->ip_residual[e], QPC_LOAD(&s->ip_residual[e]) * (1.0 - step));
+    const qpc_vector self = QPC_LOAD(&s->ip_self[e]);
+    const qpc_vector r =
+        QPC_LOAD(&s->ip_residual[e]) * (1.0 - step) -
+                         self * QPC_LOAD(&s->ip_step[QPC_LAMBDA][e]) * (s->ip_give * step);
+    largest = qpc_maximum(largest, qpc_maximum(r, -r));
+    cost += v[QPC_LAMBDA] * qpc_maximum(r, -r);
+    QPC_STORE(&s->ip_residual[e], r);
     QPC_STORE(&s->ip_inverse_reserve[e], inverse_reserve);
-    QPC_STORE(&s->ip_inverse_room[e], 1.0 / (v[QPC_ROOM] + v[QPC_LAMBDA] * v[QPC_SLACK] * inverse_reserve));
+    QPC_STORE(&s->ip_inverse_room[e],
+              1.0 / (v[QPC_ROOM] + v[QPC_LAMBDA] * (v[QPC_SLACK] * inverse_reserve + self * give)));
   }
+  s->ip_give = give;
+  *price = qpc_sum(cost);
+  *residual = 0.0;
+  for (int i = 0; i < QPC_WIDTH; ++i) *residual = largest[i] > *residual ? largest[i] : *residual;
   return qpc_sum(gap);
 }
 
@@ -115,7 +132,8 @@ QPC_FUNCTION void qpc_ip_direction(qpc_solver* s, int e, qpc_aim aim, qpc_ratio*
                            QPC_LOAD(&s->ip_pull[e]) -
                                v[QPC_LAMBDA] * (1.0 + QPC_LOAD(&s->ip_inverse_room[e]) * value));
   d[QPC_SLACK] = (v[QPC_SLACK] * d[QPC_LAMBDA] + second) * QPC_LOAD(&s->ip_inverse_reserve[e]);
-  d[QPC_ROOM] = value + d[QPC_SLACK] + QPC_LOAD(&s->ip_residual[e]);
+  d[QPC_ROOM] = value + d[QPC_SLACK] + QPC_LOAD(&s->ip_residual[e]) +
+                QPC_LOAD(&s->ip_self[e]) * s->ip_give * d[QPC_LAMBDA];
   d[QPC_RESERVE] = qpc_only(soft, QPC_LOAD(&s->ip_quadratic[e]) * d[QPC_SLACK] - d[QPC_LAMBDA]);
   for (int i = 0; i < 4; ++i) qpc_ip_limit(ratio, i, v[i], d[i]);
   const qpc_vector first_product = d[QPC_LAMBDA] * d[QPC_ROOM], second_product = d[QPC_SLACK] * d[QPC_RESERVE];
@@ -130,11 +148,15 @@ QPC_FUNCTION void qpc_ip_direction(qpc_solver* s, int e, qpc_aim aim, qpc_ratio*
   }
 }
 
-/* Directions that go with the outputs' step just solved for; returns the longest step up to 1 that keeps everything positive. */
+/* Directions that go with the outputs' step just solved for; returns the longest step up to 1 / QPC_IP_FRACTION that
+   keeps everything positive. */
 QPC_FUNCTION double qpc_ip_directions(qpc_solver* s, qpc_aim aim, double* linear, double* quadratic) {
   qpc_ratio ratio;
-  double largest = 1.0;
-  for (int i = 0; i < 4; ++i) ratio.numerator[i] = ratio.denominator[i] = QPC_BROADCAST(1.0);
+  double largest = QPC_IP_FRACTION;
+  for (int i = 0; i < 4; ++i) {
+    ratio.numerator[i] = QPC_BROADCAST(QPC_IP_FRACTION);
+    ratio.denominator[i] = QPC_BROADCAST(1.0);
+  }
   ratio.linear = ratio.quadratic = (qpc_vector){0};
   for (int e = 0; e < s->ip_count; ++e) {
     double value = 0.0;

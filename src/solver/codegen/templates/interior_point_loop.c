@@ -2,10 +2,8 @@
 
 #define QPC_IP_MAX_STEPS 60
 
-static double qpc_magnitude(double value) { return value < 0.0 ? -value : value; }
-
-/* Places entry e's variables in the interior, given n . y; returns by how much its equation is violated. */
-static double qpc_ip_place_variables(qpc_solver* s, int e, double value, double linear, double compliance) {
+/* Places entry e's variables in the interior, given n . y. */
+static void qpc_ip_place_variables(qpc_solver* s, int e, double value, double linear, double compliance) {
   const double room = value - s->ip_offset[e];
   double slack = 0.0, reserve = 1.0, lambda, start = room;
   if (compliance > 0.0) {
@@ -30,7 +28,14 @@ static double qpc_ip_place_variables(qpc_solver* s, int e, double value, double 
   s->ip_variable[QPC_RESERVE][e] = reserve;
   for (int i = 0; i < 4; ++i) s->ip_step[i][e] = 0.0;
   s->ip_residual[e] = room + slack - start;
-  return qpc_magnitude(s->ip_residual[e]);
+}
+
+/* Makes a hard row soft, by a penalty that is exact: the multipliers of hard rows that leave no room between them may be
+   as large as they like, which the method would try, but need not be much larger than what moves the inputs as far as
+   the optimum is away. */
+static void qpc_ip_soften(const qpc_solver* s, int e, qpc_row* row) {
+  row->linear = 1e4 * qpc_root(s->ip_reach / s->ip_self[e]);
+  row->compliance = 1e-4 * s->ip_self[e];
 }
 
 /* Gives the method one more row or bound, which the scan then no longer sees. */
@@ -39,6 +44,9 @@ static int qpc_ip_take(const qpc_tables* t, qpc_solver* s, int id) {
   const int e = s->ip_count;
   if (!qpc_load_row(t, s, id, &row)) return 0;
   if (row.offset <= -0.5 * QPC_UNBOUNDED) return 1;
+  s->ip_self[e] = qpc_gram_self(t, &row);
+  s->ip_hard[e] = row.compliance == 0.0;
+  if (s->ip_hard[e] && s->ip_self[e] <= 0.0) return 1; /* no input moves it: the scan says whether it holds */
   s->ip_id[e] = id;
   s->ip_group[0][e] = row.output;
   s->ip_group[1][e] = row.index;
@@ -47,6 +55,7 @@ static int qpc_ip_take(const qpc_tables* t, qpc_solver* s, int id) {
     s->ip_normal[c][e] = row.normal[c];
   }
   s->ip_offset[e] = row.offset;
+  if (s->ip_hard[e] && s->ip_give > 0.0) qpc_ip_soften(s, e, &row);
   /* Until the variables are placed, the penalty stands in for them. */
   s->ip_variable[QPC_ROOM][e] = row.linear;
   s->ip_variable[QPC_SLACK][e] = row.compliance;
@@ -83,7 +92,7 @@ static double qpc_ip_screen(const qpc_tables* t, qpc_solver* s, int take, double
       }
       const qpc_vector square = violation * violation;
       for (int l = 0; l < QPC_WIDTH && i + l < s->group_rows[group]; ++l) {
-        if (!take && violation[l] > 0.0 && square[l] > largest * size[l]) largest = square[l] / size[l];
+        if (!take && violation[l] > 0.0 && size[l] > 0.0 && square[l] > largest * size[l]) largest = square[l] / size[l];
         if (!take || (violation[l] < 0.0 && square[l] > reach * size[l])) continue;
         if (!qpc_ip_take(t, s, s->group_slot[group] + i + l)) return -1.0;
       }
@@ -95,7 +104,7 @@ static double qpc_ip_screen(const qpc_tables* t, qpc_solver* s, int take, double
     const double size = t->gram[qpc_class_of_block[block]][point][point];
     for (int upper = 0; upper < 2; ++upper) {
       const double v = upper ? s->output[place] - s->upper[place] : s->lower[place] - s->output[place];
-      if (!take && v > 0.0 && v * v > largest * size) largest = v * v / size;
+      if (!take && v > 0.0 && size > 0.0 && v * v > largest * size) largest = v * v / size;
       if (!take || (v < 0.0 && v * v > reach * size)) continue;
       if (!qpc_ip_take(t, s, QPC_FIRST_BOUND_ID + 2 * place + upper)) return -1.0;
     }
@@ -104,16 +113,14 @@ static double qpc_ip_screen(const qpc_tables* t, qpc_solver* s, int take, double
 }
 
 /* All variables of all rows, at the outputs without rows; the number of complementarities. */
-static int qpc_ip_begin(qpc_solver* s, double* gap, double* residual) {
+static int qpc_ip_begin(qpc_solver* s, double* gap) {
   int pairs = 0;
   *gap = 0.0;
-  *residual = 0.0;
   for (int e = 0; e < s->ip_count; ++e) {
     double value = 0.0;
     for (int c = 0; c < QPC_COMPONENTS; ++c) value += s->ip_normal[c][e] * s->free_output[s->ip_place[c][e]];
     const double linear = s->ip_variable[QPC_ROOM][e], compliance = s->ip_variable[QPC_SLACK][e];
-    const double off = qpc_ip_place_variables(s, e, value, linear, compliance);
-    *residual = off > *residual ? off : *residual;
+    qpc_ip_place_variables(s, e, value, linear, compliance);
     *gap += s->ip_variable[QPC_LAMBDA][e] * s->ip_variable[QPC_ROOM][e];
     *gap += s->ip_variable[QPC_SLACK][e] * s->ip_variable[QPC_RESERVE][e];
     pairs += compliance > 0.0 ? 2 : 1;
@@ -124,6 +131,7 @@ static int qpc_ip_begin(qpc_solver* s, double* gap, double* residual) {
     s->ip_variable[QPC_ROOM][e] = QPC_UNBOUNDED;
     for (int i = 0; i < 4; ++i) s->ip_step[i][e] = 0.0;
     s->ip_quadratic[e] = 0.0;
+    s->ip_self[e] = 0.0;
     s->ip_offset[e] = -QPC_UNBOUNDED;
     s->ip_residual[e] = 0.0;
     s->ip_value[e] = 0.0;
@@ -147,39 +155,73 @@ static void qpc_ip_move(const qpc_tables* t, qpc_solver* s, double step) {
   }
 }
 
+/* What the quadratic terms cost at the start, where they have not been balanced. */
+static double qpc_ip_quadratic_cost(const qpc_solver* s) {
+  double cost = 0.0;
+  for (int i = 0; i < s->quadratic_count; ++i) {
+    double off = s->quadratic_offset[i];
+    for (int c = 0; c < QPC_COMPONENTS; ++c) {
+      off -= s->quadratic_normal[i][c] *
+             s->free_output[qpc_output_place[s->quadratic_output[i]][c] + s->quadratic_index[i]];
+    }
+    cost += 0.5 * s->quadratic_weight[i] * off * off;
+  }
+  return cost;
+}
+
+/* Where the iteration is: the duality gap, the rows' largest residual and what all of them cost, and what the multipliers
+   at the start and the quadratic terms still lack to be in balance with the cost, which shrinks with every step. */
+typedef struct {
+  int pairs;
+  double gap, residual, price, unbalanced;
+} qpc_progress;
+
+/* Predictor and corrector; the length of the step, which is not yet taken. < 0: the recursion has run out of digits. */
+static double qpc_ip_newton(const qpc_tables* t, qpc_solver* s, const qpc_progress* p) {
+  double linear, quadratic;
+  qpc_ip_pulls(s, (qpc_aim){0.0, 0});
+  qpc_ip_gather(s, (qpc_aim){0.0, 0});
+  if (!qpc_ip_factor(t, s)) return -1.0;
+  qpc_ip_solve(t, s);
+  double affine = qpc_ip_directions(s, (qpc_aim){0.0, 0}, &linear, &quadratic);
+  affine = affine < 1.0 ? affine : 1.0;
+  double left = p->pairs > 0 ? (p->gap + affine * (linear + affine * quadratic)) / p->gap : 0.0;
+  left = left > 0.0 ? left * left * left * p->gap : 0.0;
+  /* No closer to the boundary than asked for, or than the residuals are: from there no step leads on. */
+  const double least = 0.1 * (s->tolerance > p->price ? s->tolerance : p->price);
+  if (left < least) left = least;
+  const double centre = p->pairs > 0 ? left / p->pairs : 0.0;
+  qpc_ip_pulls(s, (qpc_aim){centre, 1});
+  qpc_ip_gather(s, (qpc_aim){centre, 1});
+  qpc_ip_solve(t, s);
+  const double longest = qpc_ip_directions(s, (qpc_aim){centre, 1}, &linear, &quadratic);
+  return QPC_IP_FRACTION * longest < 1.0 ? QPC_IP_FRACTION * longest : 1.0;
+}
+
 /* The optimum with the rows that the method was given. */
 static int qpc_ip_iterate(const qpc_tables* t, qpc_solver* s) {
-  double gap, residual, step = 0.0, linear, quadratic;
+  qpc_progress p;
+  double step = 0.0, give = s->ip_give;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->ip_output[i] = s->free_output[i];
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = 0.0; /* steps, from here on */
-  qpc_order_inputs(s, s->u);
+  qpc_order_inputs((const double(*)[QPC_RESPONSE_PADDED])s->free_input, s->u);
   qpc_roll_out(t, s);
-  const int pairs = qpc_ip_begin(s, &gap, &residual);
-  /* The multipliers at the start are in no balance with the cost either: that too shrinks with every step. */
-  residual = gap > residual ? gap : residual;
-  /* No more can be asked than the digits of what the start was away from the optimum. */
-  const double attainable = s->tolerance + 1e-12 * gap;
+  p.pairs = qpc_ip_begin(s, &p.gap);
+  p.unbalanced = p.gap + qpc_ip_quadratic_cost(s);
+  /* No more can be asked than the digits of what the start was away from the optimum; fewer once they have run out. */
+  const double attainable = s->tolerance + (give < 1e-9 ? 1e-12 : 1e-9) * p.unbalanced;
   for (int steps = 0; steps < QPC_IP_MAX_STEPS; ++steps, ++s->iterations) {
-    gap = qpc_ip_advance(s, step);
-    if (!qpc_is_finite(gap)) return QPC_CAP;
-    if (gap <= s->tolerance && (residual <= s->tolerance || pairs == 0)) return QPC_SOLVED;
-    qpc_ip_pulls(s, (qpc_aim){0.0, 0});
-    qpc_ip_gather(s, (qpc_aim){0.0, 0});
-    if (!qpc_ip_factor(t, s)) break;
-    qpc_ip_solve(t, s);
-    const double affine = qpc_ip_directions(s, (qpc_aim){0.0, 0}, &linear, &quadratic);
-    double left = (gap + affine * (linear + affine * quadratic)) / gap;
-    left = left > 0.0 ? left : 0.0;
-    const double centre = left * left * left * gap / pairs;
-    qpc_ip_pulls(s, (qpc_aim){centre, 1});
-    qpc_ip_gather(s, (qpc_aim){centre, 1});
-    qpc_ip_solve(t, s);
-    const double longest = qpc_ip_directions(s, (qpc_aim){centre, 1}, &linear, &quadratic);
-    step = longest < 1.0 ? 0.995 * longest : 1.0;
+    p.gap = qpc_ip_advance(s, step, give, &p.residual, &p.price);
+    s->gap = p.gap + p.unbalanced + p.price;
+    if (!qpc_is_finite(s->gap)) return QPC_CAP;
+    if (s->gap <= s->tolerance && p.residual <= s->tolerance) return QPC_SOLVED;
+    step = qpc_ip_newton(t, s, &p);
+    if (step < 0.0) break;
+    if (p.gap + p.unbalanced <= p.price) give *= 0.1; /* residuals of rows that depend on each other are what is left */
     qpc_ip_move(t, s, step);
-    residual *= 1.0 - step;
+    p.unbalanced *= 1.0 - step;
   }
-  return gap <= attainable && residual <= attainable ? QPC_SOLVED : QPC_CAP;
+  return s->gap <= attainable && p.residual <= attainable ? QPC_SOLVED : QPC_CAP;
 }
 
 /* Shows the scan all rows again. */
@@ -188,15 +230,19 @@ static void qpc_ip_release(qpc_solver* s) {
   s->ip_count = 0;
 }
 
-/* The result: besides the inputs, the rows and bounds whose multiplier exceeds their room, as far as there is space. */
-static void qpc_ip_collect(qpc_solver* s) {
+/* The result: besides the inputs, the rows and bounds whose multiplier exceeds their room, as far as there is space.
+   0 if a hard row has slack. */
+static int qpc_ip_collect(qpc_solver* s, double row_tolerance) {
   s->active_count = 0;
-  for (int e = 0; e < s->ip_count && s->active_count < QPC_MAX_ACTIVE; ++e) {
-    if (!(s->ip_variable[QPC_LAMBDA][e] > s->ip_variable[QPC_ROOM][e])) continue;
+  for (int e = 0; e < s->ip_count; ++e) {
+    const double slack = s->ip_variable[QPC_SLACK][e];
+    if (s->ip_hard[e] && slack > row_tolerance) return 0;
+    if (!(s->ip_variable[QPC_LAMBDA][e] > s->ip_variable[QPC_ROOM][e]) || s->active_count == QPC_MAX_ACTIVE) continue;
     s->active_id[s->active_count] = s->ip_id[e];
     s->multiplier[s->active_count] = s->ip_variable[QPC_LAMBDA][e];
-    s->slack[s->active_count++] = s->ip_variable[QPC_SLACK][e];
+    s->slack[s->active_count++] = s->ip_hard[e] ? 0.0 : slack;
   }
+  return 1;
 }
 
 /* Rows that the optimum cannot reach need not take part: a row moves by no more than the square root of its Gram
@@ -204,13 +250,16 @@ static void qpc_ip_collect(qpc_solver* s) {
    from the row that needs most of it; a scan of all rows says whether the guess was right, and the last round takes
    every row. */
 static int qpc_interior_point(const qpc_tables* t, qpc_solver* s, double tolerance) {
+  const double row_tolerance = 0.01 * s->tolerance + tolerance;
   double violation, reach = 0.0;
   for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = s->free_output[i];
   s->iterations = 0;
   s->ip_count = 0;
   const double distance = qpc_ip_screen(t, s, 0, 0.0);
-  for (int round = 0; round < 3; ++round) {
+  s->ip_reach = distance;
+  for (int round = 0; round < 5; ++round) {
     reach = round == 0 ? distance : round == 1 ? 16.0 * distance : QPC_UNBOUNDED;
+    s->ip_give = round < 3 ? 0.0 : round == 3 ? 1e-12 : 1e-9;
     for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = s->free_output[i];
     if (distance < 0.0 || qpc_ip_screen(t, s, 1, reach) < 0.0) {
       qpc_ip_release(s);
@@ -219,9 +268,9 @@ static int qpc_interior_point(const qpc_tables* t, qpc_solver* s, double toleran
     int status = qpc_ip_iterate(t, s);
     if (status == QPC_SOLVED) {
       for (int i = 0; i < QPC_BLOCKS * QPC_POINTS_PADDED; ++i) s->output[i] = s->ip_output[i];
-      if (qpc_scan(s, 0.01 * s->tolerance + tolerance, &violation) >= 0) status = QPC_CAP;
+      if (qpc_scan(s, row_tolerance, &violation) >= 0) status = QPC_CAP;
     }
-    if (status == QPC_SOLVED) qpc_ip_collect(s);
+    if (status == QPC_SOLVED && !qpc_ip_collect(s, row_tolerance)) status = QPC_CAP;
     qpc_ip_release(s);
     if (status == QPC_SOLVED) return status;
   }

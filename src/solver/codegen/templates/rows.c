@@ -66,7 +66,8 @@ QPC_FUNCTION qpc_vector qpc_row_violation(const qpc_solver* s, int group, int i)
   return violation;
 }
 
-QPC_FUNCTION void qpc_scan_group(const qpc_solver* s, int group, qpc_best* best) {
+/* Lane by lane the largest violation of a group's rows, or 0. */
+QPC_FUNCTION qpc_vector qpc_group_violation(const qpc_solver* s, int group) {
   const int output = s->group_output[group], index = s->group_index[group], slot = s->group_slot[group];
   qpc_vector y[QPC_COMPONENTS];
   qpc_vector largest = {0};
@@ -81,7 +82,7 @@ QPC_FUNCTION void qpc_scan_group(const qpc_solver* s, int group, qpc_best* best)
     }
     largest = qpc_maximum(violation, largest);
   }
-  qpc_consider(best, largest, group);
+  return largest;
 }
 
 QPC_FUNCTION void qpc_scan_bounds(const qpc_solver* s, int first, int count, qpc_best* best) {
@@ -112,25 +113,81 @@ static int qpc_found(const qpc_solver* s, int group, int lane, double* violation
   return s->group_slot[group] + at;
 }
 
-/* The most violated row or bound: its identity, or -1 if none is violated by more than the tolerance. Active rows are
-   masked: see qpc_mask_row. */
-static int qpc_scan(const qpc_solver* s, double tolerance, double* violation) {
-  qpc_best best;
-  best.violation = QPC_BROADCAST(tolerance);
-  best.group = (qpc_mask){0};
-  for (int group = 0; group < s->group_count; ++group) qpc_scan_group(s, group, &best);
+QPC_FUNCTION void qpc_scan_all_bounds(const qpc_solver* s, qpc_best* best) {
   for (int b = 0; b < QPC_BLOCKS; ++b) {
     for (int range = 0; range < QPC_BOUND_RANGES; ++range) {
-      qpc_scan_bounds(s, b * QPC_POINTS_PADDED + qpc_bound_range[2 * range], qpc_bound_range[2 * range + 1], &best);
+      qpc_scan_bounds(s, b * QPC_POINTS_PADDED + qpc_bound_range[2 * range], qpc_bound_range[2 * range + 1], best);
     }
   }
+}
+
+/* The identity of the row that the scan found, or -1. */
+QPC_FUNCTION int qpc_most_violated(const qpc_solver* s, const qpc_best* best, double tolerance, double* violation) {
   int lane = -1;
   *violation = tolerance;
   for (int i = 0; i < QPC_WIDTH; ++i) {
-    if (best.violation[i] > *violation) {
-      *violation = best.violation[i];
+    if (best->violation[i] > *violation) {
+      *violation = best->violation[i];
       lane = i;
     }
   }
-  return lane < 0 ? -1 : qpc_found(s, (int)best.group[lane], lane, violation);
+  return lane < 0 ? -1 : qpc_found(s, (int)best->group[lane], lane, violation);
+}
+
+/* Notes which tiles of the outputs belong to points `first` to `last` of a block. */
+QPC_FUNCTION void qpc_list_tiles(qpc_solver* s, int first, int last) {
+  for (int tile = first / QPC_TILE_POINTS; tile <= last / QPC_TILE_POINTS; ++tile) s->listed_tile[tile] = 1;
+}
+
+/* Lists what the scan has found violated: most iterations change the same few rows, and need to look at no others until
+   these hold. Pays where there are many. */
+#define QPC_CHANGES_BEFORE_LIST 4
+static void qpc_list(qpc_solver* s, double tolerance, int bounds) {
+  s->listed_count = 0;
+  s->listed_bounds = bounds;
+  for (int tile = 0; tile < QPC_TILES; ++tile) s->listed_tile[tile] = 0;
+  for (int group = 0; group < s->group_count; ++group) {
+    int violated = 0;
+    for (int i = 0; i < QPC_WIDTH; ++i) violated |= s->group_violation[group][i] > tolerance;
+    if (!violated) continue;
+    s->listed[s->listed_count++] = group;
+    const int index = s->group_index[group];
+    for (int c = 0; c < QPC_COMPONENTS; ++c) {
+      const int point = qpc_output_place[s->group_output[group]][c] % QPC_POINTS_PADDED;
+      qpc_list_tiles(s, index < 0 ? point : point + index, index < 0 ? point + QPC_HORIZON - 1 : point + index);
+    }
+  }
+  for (int range = 0; range < QPC_BOUND_RANGES && bounds; ++range) {
+    qpc_list_tiles(s, qpc_bound_range[2 * range], qpc_bound_range[2 * range] + qpc_bound_range[2 * range + 1] - 1);
+  }
+}
+
+/* The most violated row or bound: its identity, or -1 if none is violated by more than the tolerance. Active rows are
+   masked: see qpc_mask_row. */
+static int qpc_scan(qpc_solver* s, double tolerance, double* violation) {
+  qpc_best best;
+  best.violation = QPC_BROADCAST(tolerance);
+  best.group = (qpc_mask){0};
+  qpc_scan_all_bounds(s, &best);
+  int bounds = 0;
+  for (int i = 0; i < QPC_WIDTH; ++i) bounds |= best.violation[i] > tolerance;
+  for (int group = 0; group < s->group_count; ++group) {
+    const qpc_vector largest = qpc_group_violation(s, group);
+    QPC_STORE(s->group_violation[group], largest);
+    qpc_consider(&best, largest, group);
+  }
+  const int id = qpc_most_violated(s, &best, tolerance, violation);
+  s->listed_count = s->listed_bounds = 0;
+  if (id >= 0 && s->iterations >= QPC_CHANGES_BEFORE_LIST) qpc_list(s, tolerance, bounds);
+  return id;
+}
+
+/* The same among what is listed. */
+static int qpc_scan_listed(const qpc_solver* s, double tolerance, double* violation) {
+  qpc_best best;
+  best.violation = QPC_BROADCAST(tolerance);
+  best.group = (qpc_mask){0};
+  if (s->listed_bounds) qpc_scan_all_bounds(s, &best);
+  for (int i = 0; i < s->listed_count; ++i) qpc_consider(&best, qpc_group_violation(s, s->listed[i]), s->listed[i]);
+  return qpc_most_violated(s, &best, tolerance, violation);
 }

@@ -81,7 +81,7 @@ static void qpc_recover(const qpc_tables* t, qpc_solver* s) {
           sum += QPC_LOAD(&t->response[qpc_class_of_block[b]][s->point[c][i] % QPC_POINTS_PADDED][j]) * force;
         }
       }
-      QPC_STORE(&s->free_input[b][j], sum);
+      QPC_STORE(&s->input[b][j], sum);
     }
   }
   for (int i = 0; i < s->active_count; ++i) {
@@ -90,7 +90,20 @@ static void qpc_recover(const qpc_tables* t, qpc_solver* s) {
                       ? (s->lambda[i] - s->row_linear[i]) * s->flexibility[i]
                       : 0.0;
   }
-  qpc_order_inputs(s, s->u);
+  qpc_order_inputs((const double(*)[QPC_RESPONSE_PADDED])s->input, s->u);
+}
+
+/* Whether the inputs hold what they should, as the model says and not the tables. Rows that nearly depend on each other
+   can leave multipliers with so few digits that these do not. Asked only where there were such. */
+static int qpc_is_proven(const qpc_tables* t, qpc_solver* s, double tolerance) {
+  double q[QPC_HORIZON][QPC_BLOCK_STATES][QPC_LANES], r[QPC_HORIZON][QPC_BLOCK_INPUTS][QPC_LANES];
+  double z0[QPC_SWEEP_STATES][QPC_LANES], violation;
+  qpc_recover(t, s);
+  if (!qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS)) return 0;
+  if (!s->delicate) return 1;
+  qpc_gather(s, q, r, z0);
+  qpc_simulate(t, (const double(*)[QPC_LANES])z0, (const double(*)[QPC_RESPONSE_PADDED])s->input, s->output);
+  return qpc_scan(s, 100.0 * tolerance, &violation) < 0 && qpc_residual(s) <= 100.0 * tolerance;
 }
 
 static void qpc_clear_result(qpc_solver* s) {
@@ -99,16 +112,28 @@ static void qpc_clear_result(qpc_solver* s) {
   s->active_count = 0;
 }
 
+/* The method that was asked for, and the other one where that meets its cap. */
 static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
   int status = QPC_CAP;
-  if (s->wanted_method == QPC_ACTIVE_SET) {
-    status = qpc_active_set(t, s, tolerance);
-    for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
-    if (status == QPC_SOLVED) qpc_recover(t, s);
-  }
-  if (status == QPC_CAP) {
-    s->method = QPC_INTERIOR_POINT;
-    status = qpc_interior_point(t, s, tolerance);
+  for (int attempt = 0; attempt < 2 && status == QPC_CAP; ++attempt) {
+    const int active_set = (s->wanted_method == QPC_ACTIVE_SET) == (attempt == 0);
+    s->method = active_set ? QPC_ACTIVE_SET : QPC_INTERIOR_POINT;
+    s->iterations = 0;
+    s->gap = 0.0;
+    if (!active_set) {
+      status = qpc_interior_point(t, s, tolerance);
+      continue;
+    }
+    const int guesses = s->warm_count;
+    for (int start = 0; start < 2 && status == QPC_CAP; ++start) {
+      s->iterations = 0;
+      status = qpc_active_set(t, s, tolerance);
+      if (status == QPC_SOLVED && !qpc_is_proven(t, s, tolerance)) status = QPC_CAP;
+      for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
+      if (guesses <= 0) break;
+      s->warm_count = 0; /* a guess that led astray is not worth the other method */
+    }
+    s->warm_count = guesses;
   }
   return status;
 }

@@ -69,3 +69,30 @@ QPC_FUNCTION void qpc_forward(const qpc_tables* t, const double (*z0)[QPC_LANES]
     for (int i = 0; i < QPC_SWEEP_STATES; ++i) z[i] = next[i];
   }
 }
+
+/* The outputs that given inputs lead to, step by step from the start. */
+static void qpc_simulate(const qpc_tables* t, const double (*z0)[QPC_LANES], const double (*input)[QPC_RESPONSE_PADDED],
+                         double* output) {
+  qpc_lane z[QPC_SWEEP_STATES], next[QPC_SWEEP_STATES], u[QPC_BLOCK_INPUTS], channel[QPC_CHANNELS];
+  for (int i = 0; i < QPC_SWEEP_STATES; ++i) z[i] = next[i] = QPC_LOAD_LANE(z0[i]);
+  for (int k = 0; k < QPC_HORIZON; ++k) {
+    for (int j = 0; j < QPC_BLOCK_INPUTS; ++j) {
+      double entries[QPC_LANES] = {0};
+      for (int b = 0; b < QPC_BLOCKS; ++b) entries[b] = input[b][k * QPC_BLOCK_INPUTS + j];
+      u[j] = QPC_LOAD_LANE(entries);
+    }
+    for (int i = 0; i < QPC_BLOCK_STATES; ++i) {
+      qpc_lane sum = QPC_LOAD_LANE(t->a[i][0]) * z[0];
+      for (int j = 1; j < QPC_BLOCK_STATES; ++j) sum += QPC_LOAD_LANE(t->a[i][j]) * z[j];
+      for (int j = 0; j < QPC_BLOCK_INPUTS; ++j) sum += QPC_LOAD_LANE(t->b[i][j]) * u[j];
+      next[i] = sum;
+    }
+    qpc_channels(t, z, next, u, channel);
+    for (int b = 0; b < QPC_BLOCKS; ++b) {
+      for (int i = 0; i < QPC_CHANNELS; ++i) {
+        output[b * QPC_POINTS_PADDED + i * QPC_HORIZON + k] = QPC_LANE_ENTRY(channel[i], b);
+      }
+    }
+    for (int i = 0; i < QPC_BLOCK_STATES; ++i) z[i] = next[i];
+  }
+}

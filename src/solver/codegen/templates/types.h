@@ -1,13 +1,3 @@
-/* What solve and setup report. */
-enum {
-  QPC_SOLVED = 0,
-  QPC_BAD_DATA = 1,      /* not finite, or a penalty, count or index out of range: the result is zero */
-  QPC_INFEASIBLE = 2,    /* the hard rows and bounds contradict each other */
-  QPC_CAP = 3,           /* the cap on changes or on active rows was met, and no other method answered */
-  QPC_NOT_CONVEX = 4,    /* setup: the Hessian in the inputs is not positive definite */
-  QPC_WRONG_VERSION = 5  /* setup: the caller was compiled with the header of another description */
-};
-
 /* Which method answered. */
 enum { QPC_ACTIVE_SET = 0, QPC_INTERIOR_POINT = 1 };
 
@@ -77,6 +67,7 @@ typedef struct {
   int32_t status;
   int32_t method;
   int32_t iterations;                                /* changes of the active set, or Newton steps */
+  double gap;                                        /* the cost is above its least by no more; active set: 0, exact */
 
   /* Work space. */
   int32_t group_count;
@@ -84,11 +75,18 @@ typedef struct {
   int32_t group_rows[QPC_GROUPS];
   int32_t group_output[QPC_GROUPS];
   int32_t group_index[QPC_GROUPS];
+  int32_t delicate;                                  /* nearly dependent rows were met: see qpc_is_proven */
+  double group_violation[QPC_GROUPS][8];             /* by lane, as the last scan of all rows found it */
+  int32_t listed_count;                              /* groups of rows that were violated then, */
+  int32_t listed[QPC_GROUPS];
+  int32_t listed_bounds;                             /* whether bounds were, */
+  uint8_t listed_tile[QPC_TILES];                    /* and which parts of a block's outputs they need */
   int32_t scaled;                                    /* some rows are scaled for this solve, by row_scale */
   double row_scale[QPC_ROW_SLOTS];
   double free_output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double output[QPC_BLOCKS * QPC_POINTS_PADDED];
   double free_input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
+  double input[QPC_BLOCKS][QPC_RESPONSE_PADDED];
   int32_t point[QPC_COMPONENTS][QPC_ACTIVE_PADDED];  /* flat place in `output` of each component */
   double normal[QPC_COMPONENTS][QPC_ACTIVE_PADDED];
   double target[QPC_ACTIVE_PADDED];                  /* n . y + flexibility * multiplier = target */
@@ -101,7 +99,11 @@ typedef struct {
   double offset[QPC_ACTIVE_PADDED];
   double direction[QPC_ACTIVE_PADDED];
   double column[QPC_ACTIVE_PADDED];
-  double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED];
+  double gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED]; /* of the working set, as if all rows were rigid */
+  double inverse_gram[QPC_ACTIVE_PADDED][QPC_ACTIVE_PADDED]; /* of gram + flexibility */
+  int32_t ignored_count;                             /* rows hidden from the scan: violated by less than matters */
+  int32_t ignored_id[QPC_ACTIVE_PADDED];
+  double ignored_offset[QPC_ACTIVE_PADDED];
   /* Interior point: the rows and bounds that it was given, and their variables. */
   int32_t ip_count;
   int32_t ip_id[QPC_ENTRIES];
@@ -110,14 +112,18 @@ typedef struct {
   double ip_normal[QPC_COMPONENTS][QPC_ENTRIES];
   double ip_offset[QPC_ENTRIES];
   double ip_quadratic[QPC_ENTRIES];
+  double ip_self[QPC_ENTRIES];                       /* the row's own Gram entry */
+  double ip_give;                                    /* proximal: how much rows give way, relative to ip_self */
+  double ip_reach;                                   /* a distance in the metric of the Hessian, squared */
+  uint8_t ip_hard[QPC_ENTRIES];
   double ip_variable[4][QPC_ENTRIES];                /* multiplier, room, slack (0: hard), reserve (hard: 1) */
   double ip_step[4][QPC_ENTRIES];
-  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier slack inverse_reserve) */
+  double ip_inverse_room[QPC_ENTRIES];               /* 1 / (room + multiplier (slack inverse_reserve + proximal)) */
   double ip_inverse_reserve[QPC_ENTRIES];            /* 1 / (quadratic slack + reserve) */
   double ip_product[2][QPC_ENTRIES];                 /* second-order terms of the two complementarities */
   double ip_pull[QPC_ENTRIES];                       /* force along the normal */
   double ip_value[QPC_ENTRIES];                      /* n . y of the outputs' step */
-  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room, 0 after the first full step */
+  double ip_residual[QPC_ENTRIES];                   /* n . y + slack - offset - room */
   double ip_weight[QPC_OUTPUTS][QPC_WEIGHTS][QPC_STAGES_PADDED];
   double ip_force[QPC_BLOCKS * QPC_POINTS_PADDED];
   double ip_output[QPC_BLOCKS * QPC_POINTS_PADDED];
