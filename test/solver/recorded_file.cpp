@@ -280,7 +280,18 @@ void write(std::ofstream& out, const std::vector<T>& values) {
 
 }  // namespace
 
-KnownRecordedProblem makeRecordedProblem(int rows, Random& random) { return Builder(rows, random).build(); }
+KnownRecordedProblem makeRecordedProblem(int rows, Random& random) {
+  // Where rows nearly depend on each other, rounding the data may change which of them are active: one in seventy.
+  constexpr int kDraws = 5;
+  RecordedProblems file;
+  file.horizon = kStages;
+  file.rows = rows;
+  for (int draw = 1;; ++draw) {
+    KnownRecordedProblem known = Builder(rows, random).build();
+    const double residual = recordedKktResidual(file, known.problem, known.problem.optimal_input, known.multipliers);
+    if (residual <= 1e-8 || draw == kDraws) return known;
+  }
+}
 
 void writeRecordedProblems(const std::string& path, const RecordedProblems& file) {
   std::ofstream out(path, std::ios::binary);
