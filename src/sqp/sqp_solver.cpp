@@ -42,7 +42,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
     const QpStatus status = solveQp(problem, plan, result.iterations);
     ++result.iterations;
     result.qp_iterations += solution_->iterations;
-    if (status == QpStatus::kNotFinite) break;
+    if (status == QpStatus::kNoAnswer) break;
     result.solved = true;
     // A step that was cut short has met something that the QP did not know; what it met is in the next QP.
     const Trajectory& answer = answers_[static_cast<std::size_t>(result.iterations - 1)];

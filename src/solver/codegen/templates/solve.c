@@ -137,9 +137,9 @@ static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
     s->warm_count = guesses;
   }
   const double asked = s->tolerance;
-  for (int relaxed = 0; relaxed < 2 && status == QPC_CAP; ++relaxed) {
+  for (int relaxed = 0; relaxed < 3 && status == QPC_CAP; ++relaxed) {
     s->method = QPC_INTERIOR_POINT;
-    s->tolerance *= 100.0;
+    s->tolerance *= 1e3;
     status = qpc_interior_point(t, s, tolerance);
   }
   s->tolerance = asked;
