@@ -37,14 +37,28 @@ void addWorkspaceViolations(const Workspace& workspace, const SegmentPoints& poi
   }
 }
 
-void addBodyViolations(const MovingBody& body, const Trajectory& plan, Violation& violation) {
+double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative) {
+  double least = half_space.clearance(relative[0]);
+  for (std::size_t i = 1; i < relative.size(); ++i) least = std::min(least, half_space.clearance(relative[i]));
+  return least;
+}
+
+/// `plane`: the first of the body's planes; `end`: of all planes.
+void addBodyViolations(const MovingBody& body, const Trajectory& plan, SegmentPlanes::const_iterator plane,
+                       SegmentPlanes::const_iterator end, Violation& violation) {
+  const std::size_t index = plane != end ? plane->body : 0;
   for (int k = 0; k < kHorizon; ++k) {
+    while (plane != end && plane->body == index && plane->segment < k) ++plane;
+    const bool has_plane = plane != end && plane->body == index && plane->segment == k;
     const auto i = static_cast<std::size_t>(k);
     const SegmentPoints relative = relativePoints(body, k, segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt));
     if (isBeyond(body, relative, 0.0)) continue;
+    const double known = has_plane ? leastClearance(plane->half_space, relative) : -kInfinity;
+    if (known >= 0.0) continue;
     const SegmentClearance segment = segmentClearance(body, k, relative);
     if (segment.clearance >= 0.0) continue;
-    for (const Vector3& r : relative) violation.add(segment.half_space.clearance(r));
+    const HalfSpace& half_space = known > segment.clearance ? plane->half_space : segment.half_space;
+    for (const Vector3& r : relative) violation.add(half_space.clearance(r));
   }
 }
 
@@ -76,7 +90,7 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   workspace.max = scenario_workspace->max - margin;
 }
 
-Violation planViolation(const UavProblem& problem, const Trajectory& plan) {
+Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
   Violation violation;
   const bool bounded = problem.bounds.workspace.max.allFinite();
   for (std::size_t k = 0; k < kHorizon; ++k) {
@@ -86,14 +100,20 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan) {
                            violation);
   }
   const Box box = planBox(plan);
-  for (const MovingBody& body : problem.bodies) {
-    if (body.box().near(box, 0.0)) addBodyViolations(body, plan, violation);
+  auto plane = planes.begin();
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+    const MovingBody& body = problem.bodies[i];
+    while (plane != planes.end() && plane->body < i) ++plane;
+    const bool has_planes = plane != planes.end() && plane->body == i;
+    if (body.box().near(box, 0.0)) {
+      addBodyViolations(body, plan, has_planes ? plane : planes.end(), planes.end(), violation);
+    }
   }
   return violation;
 }
 
-Merit merit(const UavProblem& problem, const Trajectory& plan) {
-  const Violation violation = planViolation(problem, plan);
+Merit merit(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
+  const Violation violation = planViolation(problem, plan, planes);
   const SqpParameters& sqp = problem.parameters->sqp;
   return {
       planCost(problem, plan) + sqp.slack_linear * violation.linear + 0.5 * sqp.slack_quadratic * violation.quadratic,

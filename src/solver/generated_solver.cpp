@@ -97,7 +97,7 @@ GeneratedSolver::~GeneratedSolver() = default;
 QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
   const GeneratedTables::Entry* entry = tables_->find(qp.model);
   planner_qp_solver& s = memory_->solver;
-  solution.status = QpStatus::kNotFinite;
+  solution.status = QpStatus::kNoAnswer;
   solution.iterations = 0;
   solution.max_slack = 0.0;
   if (entry == nullptr) return solution.status;
@@ -108,7 +108,6 @@ QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
   solution.iterations = s.iterations;
   solution.fell_back = s.method != PLANNER_QP_ACTIVE_SET;
   if (status == PLANNER_QP_SOLVED) solution.status = QpStatus::kSolved;
-  if (status == PLANNER_QP_CAP) solution.status = QpStatus::kIterationLimit;
   for (std::size_t k = 0; k < kHorizon; ++k) solution.jerks[k] = qp.axes * Eigen::Map<const Vector3>(s.u[k]);
   for (int i = 0; i < s.active_count; ++i) solution.max_slack = std::max(solution.max_slack, s.slack[i]);
   storeActiveRows(solution.active);

@@ -51,6 +51,15 @@ Summary summarise(std::vector<double> values) {
   return {rank(0.5), rank(0.99), values.back()};
 }
 
+double parseTolerance(const std::string& text) {
+  std::istringstream in(text);
+  double tolerance = 0.0;
+  if (!(in >> tolerance) || in.peek() != std::istringstream::traits_type::eof() || !(tolerance > 0.0)) {
+    throw std::invalid_argument("--tol " + text + ": expected a positive number");
+  }
+  return tolerance;
+}
+
 Options parseArguments(int argc, char** argv) {
   Options options;
   for (int i = 1; i < argc; ++i) {
@@ -64,7 +73,7 @@ Options parseArguments(int argc, char** argv) {
     if (argument == "--json") {
       options.json = value;
     } else if (argument == "--tol") {
-      options.tolerance = std::stod(value);
+      options.tolerance = parseTolerance(value);
     } else if (argument == "--method" && value == "interior_point") {
       options.method = RecordedSolver::Method::kInteriorPoint;
     } else if (argument != "--method" || value != "active_set") {
@@ -87,8 +96,17 @@ double timeInstance(RecordedSolver& solver, const RecordedProblem& problem, bool
   return summarise(times).median;
 }
 
+std::unique_ptr<RecordedSolver> makeSolver(const RecordedProblems& file, const std::string& path,
+                                           const Options& options) {
+  try {
+    return std::make_unique<RecordedSolver>(file, options.method, options.tolerance);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(path + ": " + error.what());
+  }
+}
+
 ModeResult run(const RecordedProblems& file, const std::string& path, bool warm, const Options& options) {
-  const auto solver = std::make_unique<RecordedSolver>(file.rows, options.method, options.tolerance);
+  const auto solver = makeSolver(file, path, options);
   ModeResult result;
   result.file = path;
   result.mode = warm ? "warm" : "cold";
@@ -116,6 +134,18 @@ ModeResult run(const RecordedProblems& file, const std::string& path, bool warm,
   return result;
 }
 
+/// A string as JSON writes it, with its quotes.
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  out << '"';
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out << '\\';
+    out << c;
+  }
+  out << '"';
+  return out.str();
+}
+
 std::string json(const std::vector<ModeResult>& results) {
   std::ostringstream out;
   const auto summary = [&](const Summary& s) {
@@ -124,8 +154,8 @@ std::string json(const std::vector<ModeResult>& results) {
   out << "[";
   for (std::size_t i = 0; i < results.size(); ++i) {
     const ModeResult& r = results[i];
-    out << (i > 0 ? ",\n " : "\n ") << "{\"file\": \"" << r.file << "\", \"mode\": \"" << r.mode << "\", \"method\": \""
-        << r.method << "\", \"count\": " << r.count << ", \"us\": ";
+    out << (i > 0 ? ",\n " : "\n ") << "{\"file\": " << quoted(r.file) << ", \"mode\": \"" << r.mode
+        << "\", \"method\": \"" << r.method << "\", \"count\": " << r.count << ", \"us\": ";
     summary(r.microseconds);
     out << ", \"iterations\": ";
     summary(r.iterations);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "recorded_qp.h"
 #include "swarm_planner/solver/instruction_set.hpp"
@@ -99,8 +100,17 @@ struct RecordedSolver::Memory {
   Functions functions;
 };
 
-RecordedSolver::RecordedSolver(int rows, Method method, double tolerance) : memory_(new Memory), rows_(rows) {
-  if (rows > RECORDED_QP_MAX_ROWS_POSITION) throw std::invalid_argument("the generated solver has too few rows");
+RecordedSolver::RecordedSolver(const RecordedProblems& file, Method method, double tolerance)
+    : memory_(new Memory), rows_(file.rows) {
+  if (file.horizon != kHorizon) {
+    throw std::invalid_argument("horizon " + std::to_string(file.horizon) + ": the solver is generated for " +
+                                std::to_string(kHorizon));
+  }
+  if (file.rows > RECORDED_QP_MAX_ROWS_POSITION) {
+    throw std::invalid_argument(std::to_string(file.rows) +
+                                " half-spaces per stage: the generated solver has room for " +
+                                std::to_string(RECORDED_QP_MAX_ROWS_POSITION));
+  }
   memory_->functions = selectFunctions();
   recorded_qp_parameters parameters;
   memory_->functions.default_parameters(&parameters);

@@ -100,7 +100,9 @@ void findPassage(const MovingBody& body, const Trajectory& iterate, double band,
   }
 }
 
-void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band, Qp& qp) {
+void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory& iterate, double band, Qp& qp,
+                 SegmentPlanes* planes) {
+  const MovingBody& body = problem.bodies[index];
   Passage passage;
   findPassage(body, iterate, band, passage);
   std::optional<PassingSide> side;
@@ -116,6 +118,7 @@ void addBodyRows(const UavProblem& problem, const MovingBody& body, const Trajec
     if (!passage.near[i]) continue;
     HalfSpace half_space = passage.near[i]->half_space;
     if (side && passage.near[i]->clearance < 0.0) half_space = side->halfSpace(body, midpoint(passage.relative[i]));
+    if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, half_space});
     for (int j = 0; j < 4; ++j) {
       addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),
                          kBodySource + 2 * body.identity());
@@ -180,7 +183,8 @@ QpModels makeQpModels(const Parameters& parameters) {
   return models;
 }
 
-void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp) {
+void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes* planes) {
+  if (planes != nullptr) planes->clear();
   qp.start = problem.start;
   qp.clear();
   setCost(problem, iterate, qp);
@@ -194,8 +198,8 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
     addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, qp);
     if (bounded) addWorkspaceRows(problem.bounds.workspace, k, points, band, qp);
   }
-  for (const MovingBody& body : problem.bodies) {
-    if (body.box().near(box, band)) addBodyRows(problem, body, iterate, band, qp);
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+    if (problem.bodies[i].box().near(box, band)) addBodyRows(problem, i, iterate, band, qp, planes);
   }
 }
 

@@ -28,7 +28,9 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
     : qp_solver_(std::move(qp_solver)),
       qp_(std::make_unique<Qp>()),
       solution_(std::make_unique<QpSolution>()),
-      answers_(static_cast<std::size_t>(kMostSqpIterations)) {}
+      answers_(static_cast<std::size_t>(kMostSqpIterations)) {
+  planes_.reserve(static_cast<std::size_t>(kMaxBodyRows * kHorizon));
+}
 
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active) {
   const SqpParameters& settings = problem.parameters->sqp;
@@ -40,7 +42,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
     const QpStatus status = solveQp(problem, plan, result.iterations);
     ++result.iterations;
     result.qp_iterations += solution_->iterations;
-    if (status == QpStatus::kNotFinite) break;
+    if (status == QpStatus::kNoAnswer) break;
     result.solved = true;
     // A step that was cut short has met something that the QP did not know; what it met is in the next QP.
     const Trajectory& answer = answers_[static_cast<std::size_t>(result.iterations - 1)];
@@ -54,12 +56,13 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
   }
   active = solution_->active;
   result.max_violation = current.largest_violation;
+  result.merit = current.value;
   return result;
 }
 
 QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, int iteration) {
   const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
-  linearise(problem, plan, band, *qp_);
+  linearise(problem, plan, band, *qp_, &planes_);
   for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], i, *qp_);
   const QpStatus status = qp_solver_->solve(*qp_, *solution_);
   Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];
@@ -75,7 +78,7 @@ double SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, Merit&
       candidate_.jerks[k] = plan.jerks[k] + length * (solution_->jerks[k] - plan.jerks[k]);
     }
     rollOut(problem.start, candidate_);
-    const Merit candidate = merit(problem, candidate_);
+    const Merit candidate = merit(problem, candidate_, planes_);
     if (!(candidate.value < current.value)) continue;
     const double moved = largestMove(plan, candidate_);
     plan.jerks = candidate_.jerks;

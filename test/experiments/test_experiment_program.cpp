@@ -8,9 +8,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "support/temporary_directory.hpp"
 #include "swarm_planner/experiments/experiment_program.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
-#include "temporary_directory.hpp"
 
 namespace swarm_planner {
 namespace {

@@ -8,11 +8,11 @@
 #include <numeric>
 #include <set>
 
+#include "support/temporary_directory.hpp"
 #include "swarm_planner/experiments/atomic_file.hpp"
 #include "swarm_planner/experiments/json_report.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/experiments/text_report.hpp"
-#include "temporary_directory.hpp"
 
 namespace swarm_planner {
 namespace {

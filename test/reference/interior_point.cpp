@@ -123,7 +123,7 @@ QpStatus InteriorPointSolver::iterate(const Qp& qp, int& iterations) {
     const double ratio = affine / mean_complementarity_;
     newtonStep(qp, true, ratio * ratio * ratio);
     const double step = stepLength(qp);
-    if (!std::isfinite(step) || !step_.knots[kHorizon].p.allFinite()) return QpStatus::kNotFinite;
+    if (!std::isfinite(step) || !step_.knots[kHorizon].p.allFinite()) return QpStatus::kNoAnswer;
     takeStep(qp, step);
   }
   return QpStatus::kIterationLimit;
@@ -226,7 +226,7 @@ void InteriorPointSolver::writeSolution(const Qp& qp, QpSolution& solution) {
     finite = finite && std::isfinite(slack);
     solution.max_slack = std::max(solution.max_slack, slack);
   });
-  if (!finite) solution.status = QpStatus::kNotFinite;
+  if (!finite) solution.status = QpStatus::kNoAnswer;
 }
 
 }  // namespace swarm_planner

@@ -156,13 +156,13 @@ TEST(GeneratedSolver, ReportsDataThatAreNotFinite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     auto qp = std::make_unique<Qp>(known->qp);
     qp->stages[4].rows[2].n.x() = bad;
-    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNoAnswer);
     *qp = known->qp;
     qp->start.v.y() = bad;
-    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNoAnswer);
     *qp = known->qp;
     qp->stages[20].position_gradient.z() = bad;
-    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solveGenerated(*qp, *solution), QpStatus::kNoAnswer);
     for (const Vector3& jerk : solution->jerks) EXPECT_TRUE(jerk.allFinite());
   }
 }

@@ -73,13 +73,13 @@ TEST(InteriorPoint, ReportsDataThatAreNotFinite) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     auto qp = std::make_unique<Qp>(known->qp);
     qp->stages[4].rows[2].d = bad;
-    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNoAnswer);
     *qp = known->qp;
     qp->start.v.y() = bad;
-    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNoAnswer);
     *qp = known->qp;
     qp->stages[20].position_gradient.z() = bad;
-    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNotFinite);
+    EXPECT_EQ(solver.solve(*qp, *solution), QpStatus::kNoAnswer);
   }
 }
 

@@ -131,8 +131,8 @@ class PlannerQp : public ::testing::Test {
     ASSERT_EQ(solver_->status, PLANNER_QP_SOLVED);
     const double gap = costOf(problem, *solver_).value - cost.value;
     // Its gap is that of its own variables. What rounding adds in the recursion, whose terms are those of the cost, and
-    // in the roll-out of its inputs comes on top.
-    EXPECT_LE(gap, 3.0 * (solver_->gap + kktOf(problem, *solver_).price + rounding) + kRecursionRounding * cost.size);
+    // in the roll-out of its inputs comes on top, and is known to an order of magnitude.
+    EXPECT_LE(gap, 10.0 * (solver_->gap + kktOf(problem, *solver_).price + rounding) + kRecursionRounding * cost.size);
     EXPECT_LE(gap, 1e-6 * (1.0 + cost.size));
     EXPECT_GE(gap, -cold_->gap - rounding);
     for (const planner_qp_solver* answer : {solver_.get(), cold_.get()}) {

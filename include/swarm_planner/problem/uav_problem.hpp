@@ -53,16 +53,28 @@ struct Violation {
   }
 };
 
+/// A half-space that has all of a body behind it while a plan flies one segment.
+struct SegmentPlane {
+  std::size_t body = 0;  ///< index in UavProblem::bodies
+  int segment = 0;
+  HalfSpace half_space;
+};
+/// Ordered by body, then by segment; at most one for each.
+using SegmentPlanes = std::vector<SegmentPlane>;
+
 /// Violation of the bounds and of the distances to all bodies by a plan: states at the knots, positions and
-/// velocities at the Bernstein control points between them, so that nothing happens between the samples unseen.
-Violation planViolation(const UavProblem& problem, const Trajectory& plan);
+/// velocities at the Bernstein control points between them, so that nothing happens between the samples unseen. A
+/// segment is clear of a body if one half-space has the one in front and the other behind: that towards the segment's
+/// middle, or one that `planes` knows. With the planes of the QP that a step comes from, a step that keeps them is not
+/// refused only because the planes turn as the plan moves along a curved body.
+Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes = {});
 
 /// The exact penalty function that every step has to decrease.
 struct Merit {
   double value = 0.0;              ///< cost (17) plus the L1 and quadratic penalties
   double largest_violation = 0.0;  ///< planViolation(...).largest
 };
-Merit merit(const UavProblem& problem, const Trajectory& plan);
+Merit merit(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes = {});
 
 /// Smallest clearances that a plan predicts at its knots: lower bounds that are exact for spheres.
 struct PredictedClearance {

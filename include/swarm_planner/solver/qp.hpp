@@ -130,11 +130,11 @@ struct Qp {
 enum class QpStatus : std::uint8_t {
   kSolved,
   kIterationLimit,  ///< the answer is the best found, its residuals above tolerance
-  kNotFinite,       ///< the data hold a NaN or infinity; no answer
+  kNoAnswer,        ///< the data hold a NaN or infinity, or no method got anywhere
 };
 
 struct QpSolution {
-  QpStatus status = QpStatus::kNotFinite;
+  QpStatus status = QpStatus::kNoAnswer;
   int iterations = 0;      ///< changes of the active set, or Newton steps
   bool fell_back = false;  ///< the second method answered, since the first met its cap
   double max_slack = 0.0;

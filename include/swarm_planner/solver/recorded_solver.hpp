@@ -13,10 +13,11 @@ class RecordedSolver {
  public:
   enum class Method { kActiveSet, kInteriorPoint };
 
-  /// @param rows half-spaces per stage of the problems to come
+  /// @param file has the sizes of the problems to come
   /// @param tolerance relative accuracy asked of the interior-point method; the active set is exact
-  /// @throws std::invalid_argument if the generated solver has room for fewer rows; std::runtime_error if set-up fails
-  RecordedSolver(int rows, Method method, double tolerance);
+  /// @throws std::invalid_argument if the solver was generated for another horizon or for fewer rows;
+  ///   std::runtime_error if set-up fails
+  RecordedSolver(const RecordedProblems& file, Method method, double tolerance);
   ~RecordedSolver();
 
   /// Puts one problem's data in place, with its warm start or without.

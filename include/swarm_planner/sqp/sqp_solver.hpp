@@ -15,6 +15,7 @@ struct SqpResult {
   int iterations = 0;          ///< QPs solved
   int qp_iterations = 0;       ///< of the QP solver, in total
   double max_violation = 0.0;  ///< largest violated constraint of the plan [m, m/s, m/s^2]
+  double merit = 0.0;          ///< of the plan; no more than that of the initial guess
 };
 
 /// Sequential quadratic programming on UavProblem: linearise, solve the QP, accept a step that decreases the exact
@@ -37,6 +38,7 @@ class SqpSolver {
   std::unique_ptr<QpSolver> qp_solver_;
   std::unique_ptr<Qp> qp_;
   std::unique_ptr<QpSolution> solution_;
+  SegmentPlanes planes_;             ///< of the newest QP
   std::vector<Trajectory> answers_;  ///< of this run's QPs
   Trajectory candidate_;
 };

@@ -112,7 +112,8 @@ static void qpc_clear_result(qpc_solver* s) {
   s->active_count = 0;
 }
 
-/* The method that was asked for, and the other one where that meets its cap. */
+/* The method that was asked for, and the other one where that meets its cap. Where neither gets as far as asked, the
+   interior-point method may stop earlier: `gap` says where. */
 static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
   int status = QPC_CAP;
   for (int attempt = 0; attempt < 2 && status == QPC_CAP; ++attempt) {
@@ -135,6 +136,13 @@ static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
     }
     s->warm_count = guesses;
   }
+  const double asked = s->tolerance;
+  for (int relaxed = 0; relaxed < 3 && status == QPC_CAP; ++relaxed) {
+    s->method = QPC_INTERIOR_POINT;
+    s->tolerance *= 1e3;
+    status = qpc_interior_point(t, s, tolerance);
+  }
+  s->tolerance = asked;
   return status;
 }
 
