@@ -80,7 +80,7 @@ struct CycleReport {
 };
 
 /// Problem 2: plans for every UAV, one after the other, with the other UAVs' plans held fixed.
-/// After the first cycle nothing in plan() allocates on the heap or throws.
+/// Nothing in plan() throws, or allocates on the heap unless more obstacles are tracked than room was made for.
 class SwarmPlanner {
  public:
   explicit SwarmPlanner(const Mission& mission);
