@@ -46,6 +46,7 @@ struct DualPoint {
   double log_slope = 0.0;         ///< d ln S / d ln lambda, <= 0
   double shape = 0.0;             ///< mean of (p - 1) / p, weighted by the terms of S
   double squared_distance = 0.0;  ///< [m^2]
+  Vector3 offset;                 ///< x - y [m]
 };
 
 DualPoint solveAxes(const Vector3& x, const Vector3& radii, const Vector3& exponents, double lambda) {
@@ -58,6 +59,7 @@ DualPoint solveAxes(const Vector3& x, const Vector3& radii, const Vector3& expon
     log_terms[k] = exponents[i] * axis.log_zeta;
     slopes[k] = exponents[i] * axis.log_slope;
     point.squared_distance += axis.offset * axis.offset;
+    point.offset[i] = axis.offset;
   }
   // Relative to the largest term: S itself overflows far from the body.
   const double largest = std::max({log_terms[0], log_terms[1], log_terms[2]});
@@ -77,7 +79,8 @@ DualPoint solveAxes(const Vector3& x, const Vector3& radii, const Vector3& expon
 
 }  // namespace
 
-double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& exponents, const Gauge& gauge) {
+double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& exponents, const Gauge& gauge,
+                    Vector3& offset) {
   constexpr int kMaxSteps = 100;
   /// Relative step of lambda; the distance is off by its square.
   constexpr double kStepTolerance = 1e-7;
@@ -104,6 +107,7 @@ double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& e
     lambda *= ratio;
     dual = solveAxes(x, radii, exponents, lambda);
   }
+  for (int i = 0; i < 3; ++i) offset[i] = std::copysign(dual.offset[i], point[i]);
   return std::sqrt(std::max(dual.squared_distance + 2.0 * lambda * std::expm1(dual.log_sum), 0.0));
 }
 

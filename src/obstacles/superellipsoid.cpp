@@ -184,13 +184,24 @@ Gauge Superellipsoid::bodyGauge(const Vector3& body, double level) const {
 }
 
 double Superellipsoid::signedDistance(const Vector3& point) const {
+  Vector3 normal;
+  return signedDistance(point, normal);
+}
+
+double Superellipsoid::signedDistance(const Vector3& point, Vector3& normal) const {
   const Vector3 body = toBody(point - center_);
   const Gauge gauge = bodyGauge(body, 1.0);
   const double to_plane = (gauge.value - 1.0) / gauge.gradient.norm();
   // So near the surface, and inside, the supporting plane is the surface.
   constexpr double kNear = 1e-9;
-  if (gauge.value < 1.0 + kNear) return to_plane;
-  return bodyDistance(body, radii_, exponents_, gauge);
+  if (gauge.value < 1.0 + kNear) {
+    normal = toWorld(gauge.gradient).normalized();
+    return to_plane;
+  }
+  Vector3 offset;
+  const double distance = bodyDistance(body, radii_, exponents_, gauge, offset);
+  normal = toWorld(offset).normalized();
+  return distance;
 }
 
 double Superellipsoid::distanceLowerBound(const Vector3& point) const {

@@ -65,6 +65,24 @@ TEST(SignedDistance, FindsTheFootOfANormal) {
   }
 }
 
+TEST(SignedDistance, GivesTheNormalAtTheFoot) {
+  Random random(8);
+  for (int n = 0; n < 5000; ++n) {
+    const Superellipsoid body = randomBody(random, 0.1, 10.0);
+    const Vector3 point = body.center() + randomOffset(random, body, random.logUniform(0.1, 100.0));
+    Vector3 normal;
+    const double distance = body.signedDistance(point, normal);
+    ASSERT_EQ(distance, body.signedDistance(point));
+    ASSERT_NEAR(normal.norm(), 1.0, 1e-12);
+    if (distance < 0.0) continue;
+    // Whatever lies further along it is as much farther away, however curved the body.
+    const double further = random.logUniform(1e-2, 1e2) * distance;
+    ASSERT_NEAR(body.signedDistance(point + further * normal), distance + further,
+                1e-8 * (distance + further + body.boundingRadius()))
+        << body.exponents().transpose();
+  }
+}
+
 TEST(SignedDistance, IsThatOfSpheresAndBoxes) {
   const Superellipsoid sphere(1, Vector3(1, 2, 3), Vector3::Constant(2.0), Vector3::Constant(2.0), 0.0,
                               Vector3::Zero());

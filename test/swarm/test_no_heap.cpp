@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "check_scene.hpp"
 #include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
 
@@ -178,6 +179,22 @@ TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {
     }
   };
   EXPECT_EQ(heapCallsOfFlight(mission, 120, tamper), 0);
+}
+
+TEST_F(NoHeap, CheckingPlansAllocatesNothing) {
+  Random random(1);
+  int accepted = 0;
+  for (int n = 0; n < 100; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 5.5);
+    for (int i = 0; i < 3; ++i) scene.addRandomObstacle(random, random.uniform(0.45, 3.0));
+    for (int i = 0; i < 5; ++i) scene.addRandomUav(random, random.uniform(1.1, 3.0));
+    bool passed = false;
+    EXPECT_EQ(heapCalls([&] { passed = scene.check().accepted(); }), 0);
+    accepted += passed ? 1 : 0;
+  }
+  EXPECT_GT(accepted, 5);
+  EXPECT_LT(accepted, 95);
 }
 
 }  // namespace

@@ -11,6 +11,8 @@ namespace swarm_planner {
 /// Solves the conditions of Karush, Kuhn and Tucker y_i + lambda dS/dy_i = |x_i| per axis, monotone in y_i, within
 /// a safeguarded Newton iteration for S(y(lambda)) = 1, monotone in lambda. The value returned is that of the dual
 /// function at lambda: never above the distance (but for rounding), and off by the square of lambda's error only.
-double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& exponents, const Gauge& gauge);
+/// `offset`: from the closest point to `point`, in the body frame [m].
+double bodyDistance(const Vector3& point, const Vector3& radii, const Vector3& exponents, const Gauge& gauge,
+                    Vector3& offset);
 
 }  // namespace swarm_planner

@@ -53,6 +53,8 @@ class Superellipsoid {
   /// Distance from a point to the surface S = 1 [m]; exact outside (to about 1e-9 relative), negative
   /// inside (there a first-order depth: minus the distance to the supporting plane met radially).
   double signedDistance(const Vector3& point) const;
+  /// The same, with the unit vector along which it grows.
+  double signedDistance(const Vector3& point, Vector3& normal) const;
   /// At most the distance from a point to the surface, at the price of a few operations: the distance to the
   /// bounding box [m], 0 inside it.
   double distanceLowerBound(const Vector3& point) const;

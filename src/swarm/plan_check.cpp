@@ -1,0 +1,352 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/plan_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "swarm_planner/swarm/clearance_proof.hpp"
+#include "swarm_planner/swarm/flight_envelope.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kTimeTolerance = CommittedMotion::kTimeTolerance;
+
+bool isFinite(const KinematicState& x) { return x.p.allFinite() && x.v.allFinite() && x.a.allFinite(); }
+
+bool isFinite(const Trajectory& plan) {
+  return std::isfinite(plan.epoch) && std::isfinite(plan.dt) && plan.dt > 0.0 &&
+         std::all_of(plan.knots.begin(), plan.knots.end(), [](const KinematicState& x) { return isFinite(x); }) &&
+         std::all_of(plan.jerks.begin(), plan.jerks.end(), [](const Vector3& j) { return j.allFinite(); });
+}
+
+bool isFinite(const PredictedObstacle& obstacle) {
+  return std::isfinite(obstacle.stamp) && std::isfinite(obstacle.margin) && obstacle.margin >= 0.0 &&
+         std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
+         std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && !std::isnan(obstacle.valid_until);
+}
+
+bool areClose(const KinematicState& x, const KinematicState& y) {
+  const Vector3 difference = (x.p - y.p).cwiseAbs().cwiseMax((x.v - y.v).cwiseAbs()).cwiseMax((x.a - y.a).cwiseAbs());
+  return difference.maxCoeff() <= kKnotTolerance;
+}
+
+CheckReason reasonOf(FlightBound bound) {
+  switch (bound) {
+    case FlightBound::kNone:
+      return CheckReason::kAccepted;
+    case FlightBound::kSpeed:
+      return CheckReason::kSpeed;
+    case FlightBound::kAcceleration:
+      return CheckReason::kAcceleration;
+    case FlightBound::kThrust:
+      return CheckReason::kThrust;
+  }
+  return CheckReason::kThrust;
+}
+
+CheckVerdict checkDynamics(const Trajectory& plan, const KinematicState& start, const FlightBounds& bounds) {
+  if (!areClose(plan.knots[0], start)) return {CheckReason::kDiscontinuous, 0.0};
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    const double time = static_cast<double>(k) * plan.dt;
+    const EnvelopeBreach breach = findBreach(bounds, plan.knots[k], plan.jerks[k], plan.dt);
+    if (!areClose(propagate(plan.knots[k], plan.jerks[k], plan.dt), plan.knots[k + 1])) {
+      return {CheckReason::kDiscontinuous, time + plan.dt};
+    }
+    if (breach.bound != FlightBound::kNone) return {reasonOf(breach.bound), time + breach.time};
+  }
+  return {};
+}
+
+bool contains(const Workspace& workspace, const Box& box) {
+  return (box.min.array() >= workspace.min.array() - kDistanceTolerance).all() &&
+         (box.max.array() <= workspace.max.array() + kDistanceTolerance).all();
+}
+
+/// Halved until the hull of the control points, or a point of the curve, decides.
+ClearanceFinding staysInside(const Workspace& workspace, const BernsteinPoints<4>& points, double from, double to,
+                             int depth) {
+  constexpr int kMaxDepth = 16;
+  Box hull;
+  for (const Vector3& point : points) hull.include(point);
+  if (contains(workspace, hull)) return {};
+  const double middle = 0.5 * (from + to);
+  const Vector3 point = curveMiddle(points);
+  if (!contains(workspace, {points[0], points[0]})) return {false, false, from};
+  if (!contains(workspace, {point, point})) return {false, false, middle};
+  if (!contains(workspace, {points[3], points[3]})) return {false, false, to};
+  if (depth == kMaxDepth) return {false, true, middle};
+  BernsteinPoints<4> left;
+  BernsteinPoints<4> right;
+  halve(points, left, right);
+  const ClearanceFinding first = staysInside(workspace, left, from, middle, depth + 1);
+  return first.clear ? staysInside(workspace, right, middle, to, depth + 1) : first;
+}
+
+CheckVerdict checkWorkspace(const CommittedMotion& motion, const CheckLimits& limits) {
+  Workspace workspace = limits.bounds.workspace;
+  if (contains(workspace, motion.box())) return {};
+  const Vector3 slack = Vector3::Constant(limits.workspace_slack);
+  workspace.min = workspace.min.cwiseMin(motion.start().cwiseMax(workspace.min - slack));
+  workspace.max = workspace.max.cwiseMax(motion.start().cwiseMin(workspace.max + slack));
+  for (int k = 0; k < motion.pieces(); ++k) {
+    if (contains(workspace, motion.pieceBox(k))) continue;
+    const double from = k * motion.dt();
+    const ClearanceFinding finding = staysInside(workspace, motion.piece(k), from, from + motion.dt(), 0);
+    if (!finding.clear) return {CheckReason::kWorkspace, finding.time, -1, finding.undecided};
+  }
+  if (!contains(workspace, motion.pieceBox(motion.pieces()))) return {CheckReason::kWorkspace, motion.duration()};
+  return {};
+}
+
+/// One motion against one obstacle. Times are in seconds after the motion's epoch.
+class ObstacleCheck {
+ public:
+  ObstacleCheck(const CommittedMotion& motion, const PredictedObstacle& obstacle, double look_ahead)
+      : motion_(motion),
+        body_(*obstacle.body),
+        growth_rate_(obstacle.growth_rate),
+        center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
+        distance_(obstacle.least_distance + obstacle.margin + growth_rate_ * (motion.epoch() - obstacle.stamp)),
+        end_(std::min(motion.duration() + look_ahead, obstacle.valid_until - motion.epoch())),
+        proof_(body_) {}
+
+  CheckVerdict run(double margin) {
+    if (end_ < 0.0 || isFar(motion_.box(), 0.0, end_)) return {};
+    if (!relieve(margin)) return {CheckReason::kObstacle, 0.0};
+    for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
+      const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
+      const double from = first * motion_.dt();
+      const double to = last * motion_.dt();
+      if (from > end_) return {};
+      if (isFar(motion_.groupBox(first / CommittedMotion::kGroup), from, to)) continue;
+      for (int k = first; k < last; ++k) {
+        const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
+        if (!verdict.accepted()) return verdict;
+      }
+    }
+    return checkPiece(motion_.pieces(), motion_.duration(), end_);
+  }
+
+ private:
+  double distanceAt(double time) const { return distance_ + growth_rate_ * time; }
+  Vector3 centerAt(double time) const { return center_ + time * body_.velocity(); }
+
+  /// Whether a box is certainly clear of the body as it sweeps from one time to another.
+  bool isFar(const Box& box, double from, double to) const {
+    const Vector3 a = centerAt(from);
+    const Vector3 b = centerAt(to);
+    const Vector3 above = box.min - a.cwiseMax(b);
+    const Vector3 below = a.cwiseMin(b) - box.max;
+    const Vector3 gap = (above.cwiseMax(below) - body_.halfExtents()).cwiseMax(0.0);
+    const double distance = distanceAt(to);
+    return gap.squaredNorm() > distance * distance;
+  }
+
+  /// Reduces what is demanded to what the start has. False if that is not enough.
+  bool relieve(double margin) {
+    distance_ = std::max(distance_ - kDistanceTolerance, 0.0);
+    const Vector3 relative = motion_.start() - center_;
+    const Vector3 gap = (relative.cwiseAbs() - body_.halfExtents()).cwiseMax(0.0);
+    if (gap.squaredNorm() > distance_ * distance_ || distanceBound(body_, relative) > distance_) return true;
+    const double missing = distance_ - body_.signedDistance(body_.center() + relative);
+    if (missing > margin) return false;
+    if (missing > 0.0) distance_ -= std::min(missing + kUsedMarginTolerance, margin);
+    return true;
+  }
+
+  CheckVerdict checkPiece(int k, double from, double to) {
+    if (to < from || from > end_ || isFar(motion_.pieceBox(k), from, to)) return {};
+    BernsteinPoints<4> relative = motion_.piece(k);
+    const Vector3 begin = centerAt(from);
+    const Vector3 step = (to - from) / 3.0 * body_.velocity();
+    for (int i = 0; i < 4; ++i) relative[static_cast<std::size_t>(i)] -= begin + i * step;
+    const ClearanceFinding finding = proof_.prove(relative, from, to, distanceAt(from), distanceAt(to));
+    if (finding.clear) return {};
+    const CheckReason reason = k < motion_.pieces() ? CheckReason::kObstacle : CheckReason::kRestingPlace;
+    return {reason, finding.time, -1, finding.undecided};
+  }
+
+  const CommittedMotion& motion_;
+  const Superellipsoid& body_;
+  double growth_rate_;
+  Vector3 center_;   ///< at the epoch
+  double distance_;  ///< demanded at the epoch [m]
+  double end_;
+  ObstacleProof proof_;
+};
+
+/// One motion against another UAV's, on the union of their knots. Times are in seconds after the first one's epoch.
+class PairCheck {
+ public:
+  PairCheck(const CommittedMotion& motion, const CommittedMotion& other, const CheckLimits& limits)
+      : motion_(motion),
+        other_(other),
+        offset_(other.epoch() - motion.epoch()),
+        proof_(limits.pair_horizontal + limits.pair_margin, limits.pair_vertical + limits.pair_margin) {}
+
+  CheckVerdict run(const CheckLimits& limits) {
+    // Before its epoch the other one may be anywhere along its first piece, drawn out.
+    if (offset_ <= kTimeTolerance && proof_.areApart(motion_.box(), other_.box())) return {};
+    proof_ = relievedProof(limits);
+    for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
+      const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
+      if (areApart(first, last)) continue;
+      for (int k = first; k < last; ++k) {
+        if (areApart(k, k + 1)) continue;
+        const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
+        if (!verdict.accepted()) return verdict;
+      }
+    }
+    // The other one may fly on while this one rests; once both rest nothing changes any more.
+    const double end = motion_.duration();
+    const double other_end = std::max(offset_ + other_.duration(), end);
+    if (offset_ <= end &&
+        proof_.areApart(motion_.pieceBox(motion_.pieces()), other_.boxOver(end - offset_, other_end - offset_))) {
+      return {};
+    }
+    return checkPiece(motion_.pieces(), end, other_end + motion_.dt());
+  }
+
+ private:
+  /// Whether pieces [first, last) are certainly clear of the other UAV at those times.
+  bool areApart(int first, int last) const {
+    const double from = first * motion_.dt() - offset_;
+    const double to = last * motion_.dt() - offset_;
+    if (from < -kTimeTolerance) return false;
+    const Box& own = last - first == 1 ? motion_.pieceBox(first) : motion_.groupBox(first / CommittedMotion::kGroup);
+    return proof_.areApart(own, other_.boxOver(from, to));
+  }
+
+  /// Semi-axes between the least ones and those with the margin: those on which the start lies, if within.
+  PairProof relievedProof(const CheckLimits& limits) const {
+    const Vector3 d = motion_.start() - other_.after(-offset_).p;
+    const auto gauge = [&](double extra) {
+      const Vector3 scaled(d.x() / (limits.pair_horizontal + extra), d.y() / (limits.pair_horizontal + extra),
+                           d.z() / (limits.pair_vertical + extra));
+      return scaled.norm();
+    };
+    double low = 0.0;
+    double high = limits.pair_margin;
+    if (gauge(high - kDistanceTolerance) < 1.0) {
+      for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (gauge(middle) >= 1.0 ? low : high) = middle;
+      }
+      high = std::max(low - kUsedMarginTolerance, 0.0);
+    }
+    const double extra = high - kDistanceTolerance;
+    return PairProof(limits.pair_horizontal + extra, limits.pair_vertical + extra);
+  }
+
+  /// Where the other UAV is in `piece` (its index) over [from, to], extrapolated if need be.
+  BernsteinPoints<4> otherCurve(int piece, double from, double to) const {
+    const BernsteinPoints<4> points = other_.piece(piece);
+    if (piece >= other_.pieces()) return points;
+    const double begin = (from - offset_) / other_.dt() - piece;
+    const double end = (to - offset_) / other_.dt() - piece;
+    const double tolerance = kTimeTolerance / other_.dt();
+    if (std::abs(begin) < tolerance && std::abs(end - 1.0) < tolerance) return points;
+    return subcurve(points, begin, end);
+  }
+
+  /// `k`: of the first motion, over [from, to].
+  CheckVerdict checkPiece(int k, double from, double to) {
+    const BernsteinPoints<4> own = motion_.piece(k);
+    const double scaled = (from - offset_ + kTimeTolerance) / other_.dt();
+    int piece = scaled > 0.0 ? static_cast<int>(std::min(scaled, static_cast<double>(other_.pieces()))) : 0;
+    for (double begin = from; begin < to - kTimeTolerance; ++piece) {
+      const double knot = offset_ + (piece + 1) * other_.dt();
+      const double end = piece < other_.pieces() && knot < to - kTimeTolerance ? knot : to;
+      if (offset_ <= begin && proof_.areApart(motion_.pieceBox(k), other_.pieceBox(piece))) {
+        begin = end;
+        continue;
+      }
+      const bool whole = (begin == from && end == to) || k == motion_.pieces();
+      BernsteinPoints<4> relative =
+          whole ? own : subcurve(own, (begin - from) / motion_.dt(), (end - from) / motion_.dt());
+      const BernsteinPoints<4> other = otherCurve(piece, begin, end);
+      for (std::size_t i = 0; i < relative.size(); ++i) relative[i] -= other[i];
+      const ClearanceFinding finding = proof_.prove(relative, begin, end);
+      if (!finding.clear) return {CheckReason::kUav, finding.time, -1, finding.undecided};
+      begin = end;
+    }
+    return {};
+  }
+
+  const CommittedMotion& motion_;
+  const CommittedMotion& other_;
+  double offset_;  ///< the other's epoch minus the first one's [s]
+  PairProof proof_;
+};
+
+CheckVerdict withBody(CheckVerdict verdict, std::size_t body) {
+  verdict.body = static_cast<int>(body);
+  return verdict;
+}
+
+}  // namespace
+
+const char* checkReasonText(CheckReason reason) {
+  switch (reason) {
+    case CheckReason::kAccepted:
+      return "accepted";
+    case CheckReason::kNotFinite:
+      return "a number is not finite";
+    case CheckReason::kDiscontinuous:
+      return "does not follow from its start and jerks";
+    case CheckReason::kSpeed:
+      return "exceeds the speed limit";
+    case CheckReason::kAcceleration:
+      return "exceeds the acceleration limit";
+    case CheckReason::kThrust:
+      return "exceeds the thrust limits";
+    case CheckReason::kNoStop:
+      return "cannot stop at its end within the limits";
+    case CheckReason::kWorkspace:
+      return "leaves the workspace";
+    case CheckReason::kObstacle:
+      return "too close to an obstacle";
+    case CheckReason::kUav:
+      return "too close to another UAV";
+    case CheckReason::kRestingPlace:
+      return "an obstacle comes to its resting place";
+  }
+  return "unknown";
+}
+
+CheckVerdict checkClearance(const CommittedMotion& motion, const CheckLimits& limits,
+                            const CheckSurroundings& surroundings) {
+  if (!motion.isFinite()) return {CheckReason::kNotFinite};
+  const CheckVerdict workspace = checkWorkspace(motion, limits);
+  if (!workspace.accepted()) return workspace;
+  for (std::size_t i = 0; i < surroundings.obstacles.size(); ++i) {
+    const PredictedObstacle& obstacle = surroundings.obstacles[i];
+    if (!isFinite(obstacle)) return withBody({CheckReason::kNotFinite}, i);
+    const CheckVerdict verdict = ObstacleCheck(motion, obstacle, limits.look_ahead).run(obstacle.margin);
+    if (!verdict.accepted()) return withBody(verdict, i);
+  }
+  for (std::size_t i = 0; i < surroundings.uavs.size(); ++i) {
+    const CommittedMotion& other = *surroundings.uavs[i];
+    if (!other.isFinite()) return withBody({CheckReason::kNotFinite}, i);
+    const CheckVerdict verdict = PairCheck(motion, other, limits).run(limits);
+    if (!verdict.accepted()) return withBody(verdict, i);
+  }
+  return {};
+}
+
+CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, const CheckLimits& limits,
+                       const CheckSurroundings& surroundings, CommittedMotion& motion) {
+  if (!isFinite(plan) || !isFinite(start)) return {CheckReason::kNotFinite};
+  const FlightBounds bounds = relieveBounds(limits.bounds, start, limits.bound_slack);
+  const CheckVerdict dynamics = checkDynamics(plan, start, bounds);
+  if (dynamics.reason == CheckReason::kDiscontinuous) return dynamics;
+  StopManoeuvre stop;
+  planStop(plan.knots.back(), plan.dt, bounds, stop);
+  motion.assign(plan, stop);
+  if (!dynamics.accepted()) return dynamics;
+  if (!stop.within_bounds) return {CheckReason::kNoStop, plan.duration()};
+  return checkClearance(motion, limits, surroundings);
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,534 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// The check is the last word before a plan flies: what it lets through is flown, whatever the solver did. If these fail
+// UAVs collide, or stand still in front of nothing.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "check_scene.hpp"
+#include "obstacles/random_bodies.hpp"
+#include "swarm_planner/swarm/clearance_proof.hpp"
+
+namespace swarm_planner {
+namespace {
+
+/// Samples may fall short of what is proven by this: tolerances, and that of a used-up margin.
+double allowance(const SampledSlack& sampled) {
+  return 2.0 * kDistanceTolerance + (sampled.used_margin ? kUsedMarginTolerance + 1e-5 : 0.0);
+}
+
+/// Counts what the check says about scenes against what dense samples say.
+struct Tally {
+  int accepted = 0;
+  int refused_unsafe = 0;
+  int safe = 0;  ///< by samples, with more than a centimetre to spare
+  int refused_safe = 0;
+  int undecided = 0;
+
+  void add(CheckScene& scene, const char* what, int n) {
+    const CheckVerdict verdict = scene.check();
+    const SampledSlack sampled = sampledSlack(scene);
+    if (!verdict.accepted() && verdict.reason < CheckReason::kObstacle) return;  // a bound, which is not meant here
+    if (verdict.accepted()) {
+      ++accepted;
+      ASSERT_GE(sampled.slack, -allowance(sampled)) << what << " " << n << " at " << sampled.time << " s";
+    } else if (sampled.slack < 0.0) {
+      ++refused_unsafe;
+    }
+    undecided += verdict.undecided ? 1 : 0;
+    if (sampled.slack < 0.01) return;
+    ++safe;
+    refused_safe += verdict.accepted() ? 0 : 1;
+  }
+
+  void print(const char* what) const {
+    std::printf("  %s: accepted %d, refused and unsafe %d, refused though 1 cm clear %d of %d, undecided %d\n", what,
+                accepted, refused_unsafe, refused_safe, safe, undecided);
+  }
+};
+
+TEST(PlanCheck, AcceptsNothingThatSamplesFindTooCloseToAnObstacle) {
+  Random random(1);
+  Tally tally;
+  for (int n = 0; n < 900; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 4.0);
+    for (int i = random.integer(1, 2); i > 0; --i) scene.addRandomObstacle(random, random.uniform(0.4, 1.0));
+    tally.add(scene, "obstacles", n);
+  }
+  tally.print("obstacles");
+  EXPECT_GT(tally.accepted, 150);
+  EXPECT_GT(tally.refused_unsafe, 300);
+  EXPECT_LT(tally.undecided, 10);
+  EXPECT_LT(tally.refused_safe, 0.02 * tally.safe);
+}
+
+TEST(PlanCheck, AcceptsNothingThatSamplesFindTooCloseToAUav) {
+  Random random(2);
+  Tally tally;
+  for (int n = 0; n < 3000; ++n) {
+    CheckScene scene;
+    scene.limits.pair_vertical = n % 2 == 0 ? 2.0 : 3.0;
+    scene.planRandomly(random, 4.0);
+    for (int i = random.integer(1, 3); i > 0; --i) scene.addRandomUav(random, random.uniform(1.05, 1.6));
+    tally.add(scene, "uavs", n);
+  }
+  tally.print("UAVs");
+  EXPECT_GT(tally.accepted, 500);
+  EXPECT_GT(tally.refused_unsafe, 500);
+  EXPECT_LT(tally.undecided, 10);
+  EXPECT_LT(tally.refused_safe, 0.02 * tally.safe);
+}
+
+// Curves that touch what is demanded to a tenth of a millimetre: the proofs must tell the two sides apart.
+TEST(PlanCheck, TellsTouchingFromCuttingIn) {
+  Random random(3);
+  int touching = 0;
+  int accepted = 0;
+  int undecided = 0;
+  for (int n = 0; n < 300; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 4.0);
+    scene.addRandomObstacle(random, random.uniform(0.6, 0.8));
+    PredictedObstacle& obstacle = scene.surroundings.obstacles[0];
+    const SampledSlack sampled = sampledSlack(scene);
+    // At the start the margin would count as used up.
+    if (sampled.slack <= -0.25 || sampled.used_margin || sampled.time == 0.0) continue;
+    obstacle.least_distance += sampled.slack - 1e-4;  // 0.1 mm to spare
+    const CheckVerdict verdict = scene.check();
+    const bool judged = verdict.accepted() || verdict.reason >= CheckReason::kObstacle;
+    if (!judged || sampledSlack(scene).used_margin) continue;
+    ++touching;
+    accepted += verdict.accepted() ? 1 : 0;
+    undecided += verdict.undecided ? 1 : 0;
+    obstacle.least_distance += 2e-4;
+    if (sampledSlack(scene).used_margin) continue;
+    ASSERT_FALSE(scene.check().accepted()) << n;
+  }
+  std::printf("  0.1 mm to spare: accepted %d of %d, undecided %d\n", accepted, touching, undecided);
+  EXPECT_GT(touching, 100);
+  EXPECT_GT(accepted, 0.98 * touching);
+}
+
+TEST(PlanCheck, CatchesAnObstacleMovedByFiveCentimetres) {
+  Random random(4);
+  int moved = 0;
+  for (int n = 0; n < 1500; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 4.0);
+    scene.addRandomObstacle(random, random.uniform(0.5, 0.6));
+    if (!scene.check().accepted()) continue;
+    const SampledSlack sampled = sampledSlack(scene);
+    if (sampled.slack > 0.045 || sampled.used_margin) continue;
+    PredictedObstacle& obstacle = scene.surroundings.obstacles[0];
+    const Superellipsoid& body = *obstacle.body;
+    const double age = scene.motion.epoch() - obstacle.stamp;
+    const Vector3 point = scene.motion.after(sampled.time).p - (sampled.time + age) * body.velocity();
+    Vector3 slope;
+    for (int i = 0; i < 3; ++i) {
+      slope[i] = body.signedDistance(point + 1e-5 * Vector3::Unit(i)) - body.signedDistance(point);
+    }
+    scene.bodies.emplace_back(1, body.center() + 0.05 * slope.normalized(), body.radii(), body.exponents(), body.yaw(),
+                              body.velocity());
+    obstacle.body = &scene.bodies.back();
+    if (sampledSlack(scene).used_margin) continue;
+    const CheckVerdict verdict = scene.check();
+    ASSERT_FALSE(verdict.accepted()) << n;
+    ASSERT_EQ(verdict.body, 0);
+    ++moved;
+  }
+  std::printf("  obstacles moved: %d\n", moved);
+  EXPECT_GT(moved, 50);
+}
+
+TEST(PlanCheck, CatchesANeighbourDelayedByOneStage) {
+  // It crosses 2.4 m ahead at 4 m/s; 0.3 s later it is 1.2 m less, and closer than 2.2 m.
+  const Trajectory plan = straightPlan(Vector3::Zero(), Vector3(4.0, 0.0, 0.0), 10.0, 0.3);
+  CheckScene scene;
+  scene.plan(plan);
+  scene.addUav(straightPlan(Vector3(8.0, -12.0, 0.0), Vector3(0.0, 4.0, 0.0), 10.0, 0.3));
+  EXPECT_TRUE(scene.check().accepted());
+  CheckScene delayed;
+  delayed.plan(plan);
+  delayed.addUav(straightPlan(Vector3(8.0, -12.0, 0.0), Vector3(0.0, 4.0, 0.0), 10.3, 0.3));
+  EXPECT_TRUE(delayed.check().accepted());  // that way it passes behind
+
+  Random random(5);
+  int caught = 0;
+  for (int n = 0; n < 3000; ++n) {
+    CheckScene before;
+    before.planRandomly(random, 4.0);
+    before.addRandomUav(random, random.uniform(1.1, 1.3));
+    if (!before.check().accepted()) continue;
+    Trajectory late = before.trajectory;
+    late.epoch -= late.dt;  // the other one is late by a stage
+    CheckScene after;
+    after.limits = before.limits;
+    after.plan(late);
+    after.addMotion(before.others.back());
+    const SampledSlack sampled = sampledSlack(after);
+    if (sampled.slack >= -allowance(sampled)) continue;
+    ASSERT_FALSE(after.check().accepted()) << n;
+    ++caught;
+  }
+  std::printf("  neighbours delayed into the way: %d\n", caught);
+  EXPECT_GT(caught, 100);
+}
+
+TEST(PlanCheck, CatchesEveryChangedNumber) {
+  Random random(6);
+  CheckScene scene;
+  scene.planRandomly(random, 3.0);
+  ASSERT_TRUE(scene.check().accepted());
+  const Trajectory good = scene.trajectory;
+  for (std::size_t k = 0; k <= kHorizon; ++k) {
+    for (int i = 0; i < 9; ++i) {
+      const auto number = [&]() -> double& {
+        KinematicState& x = scene.trajectory.knots[k];
+        return (i < 3 ? x.p : i < 6 ? x.v : x.a)[i % 3];
+      };
+      number() += 1e-5;
+      ASSERT_EQ(scene.check().reason, CheckReason::kDiscontinuous) << k << " " << i;
+      number() = std::nan("");
+      ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+      number() = std::numeric_limits<double>::infinity();
+      ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+      scene.trajectory = good;
+    }
+  }
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    scene.trajectory.jerks[k].y() += 1e-4;
+    ASSERT_EQ(scene.check().reason, CheckReason::kDiscontinuous) << k;
+    scene.trajectory.jerks[k].y() = std::nan("");
+    ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+    scene.trajectory = good;
+  }
+  for (const double bad : {0.0, -0.3, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    scene.trajectory.dt = bad;
+    ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+    scene.trajectory = good;
+  }
+  scene.trajectory.epoch = std::nan("");
+  ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+  scene.trajectory = good;
+  scene.start.v.x() += 1e-5;
+  ASSERT_EQ(scene.check().reason, CheckReason::kDiscontinuous);
+  scene.start.v.x() = std::nan("");
+  ASSERT_EQ(scene.check().reason, CheckReason::kNotFinite);
+}
+
+TEST(PlanCheck, CatchesNumbersThatAreNotFiniteInTheSurroundings) {
+  CheckScene scene;
+  scene.plan(straightPlan(Vector3::Zero(), Vector3::UnitX(), 0.0, 0.3));
+  CommittedMotion bad;
+  bad.assignRest(0.0, Vector3(100.0, std::nan(""), 0.0));
+  scene.addMotion(bad);
+  EXPECT_EQ(scene.check().reason, CheckReason::kNotFinite);
+  EXPECT_EQ(scene.check().body, 0);
+  scene.surroundings.uavs.clear();
+  EXPECT_TRUE(scene.check().accepted());
+  scene.addObstacle(
+      Superellipsoid(1, Vector3(50.0, 50.0, 0.0), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+  EXPECT_TRUE(scene.check().accepted());
+  scene.surroundings.obstacles[0].stamp = std::nan("");
+  EXPECT_EQ(scene.check().reason, CheckReason::kNotFinite);
+}
+
+TEST(PlanCheck, EachBoundBreaksWhenExceededALittle) {
+  const auto reason = [](const Vector3& v, const Vector3& a, const Vector3& jerk, const FlightBounds& bounds) {
+    CheckScene scene;
+    std::array<Vector3, kHorizon> jerks = noJerks();
+    jerks[0] = jerk;
+    jerks[1] = -a / 0.1 - jerk;
+    scene.limits.bounds = bounds;
+    scene.plan(makePlan({Vector3::Zero(), v, a}, jerks, 0.0, 0.1));
+    return scene.check().reason;
+  };
+  FlightBounds bounds = defaultCheckLimits().bounds;
+  const Vector3 zero = Vector3::Zero();
+  EXPECT_EQ(reason(Vector3(3.0, 4.0, 0.0), zero, zero, bounds), CheckReason::kAccepted);
+  EXPECT_EQ(reason(Vector3(3.0, 4.00001, 0.0), zero, zero, bounds), CheckReason::kSpeed);
+  // From rest upwards: 2 g of thrust is 1 g of acceleration at no speed.
+  EXPECT_EQ(reason(zero, Vector3(0, 0, 9.7), Vector3(0, 0, -10), bounds), CheckReason::kAccepted);
+  EXPECT_EQ(reason(zero, Vector3(0, 0, 9.82), Vector3(0, 0, -10), bounds), CheckReason::kThrust);
+  EXPECT_EQ(reason(zero, Vector3(0, 0, -7.84), Vector3(0, 0, 10), bounds), CheckReason::kAccepted);
+  EXPECT_EQ(reason(zero, Vector3(0, 0, -7.86), Vector3(0, 0, 10), bounds), CheckReason::kThrust);
+  bounds.max_acceleration = 3.0;
+  EXPECT_EQ(reason(zero, Vector3(2.9999, 0, 0), zero, bounds), CheckReason::kAccepted);
+  EXPECT_EQ(reason(zero, Vector3(2.9999, 0, 0), Vector3(0.01, 0, 0), bounds), CheckReason::kAcceleration);
+  bounds.max_acceleration = 0.5;
+  EXPECT_EQ(reason(Vector3(4.0, 0.0, 0.0), zero, zero, bounds), CheckReason::kNoStop);
+}
+
+TEST(PlanCheck, KeepsTheWorkspaceBetweenTheKnotsAndInTheStop) {
+  const auto reason = [](double y_most, double x_most) {
+    CheckScene scene;
+    scene.limits.bounds.workspace.min = Vector3(-1.0, -1.0, -1.0);
+    scene.limits.bounds.workspace.max = Vector3(x_most, y_most, 1.0);
+    // y rises to 0.5 m after 1 s and falls again.
+    std::array<Vector3, kHorizon> jerks = noJerks();
+    scene.plan(makePlan({Vector3::Zero(), Vector3(1.0, 1.0, 0.0), Vector3(0.0, -1.0, 0.0)}, jerks, 0.0, 0.08));
+    return scene.check();
+  };
+  EXPECT_TRUE(reason(0.501, 10.0).accepted());
+  EXPECT_EQ(reason(0.4999, 10.0).reason, CheckReason::kWorkspace);
+  EXPECT_NEAR(reason(0.4999, 10.0).time, 1.0, 0.08);
+  EXPECT_TRUE(reason(0.501, 2.2).accepted());
+  EXPECT_EQ(reason(0.501, 1.62).reason, CheckReason::kWorkspace);  // the plan ends at 1.6 m, its stop beyond
+}
+
+TEST(PlanCheck, KnowsTheLeastDistanceOfUavsHeadOn) {
+  // They pass at exactly `abreast` metres, 6 m/s apart.
+  const auto verdict = [](double abreast, double vertical, double epoch) {
+    CheckScene scene;
+    scene.limits.pair_vertical = 1.0;
+    scene.plan(straightPlan(Vector3(-10.0, 0.0, 0.0), Vector3(3.0, 0.0, 0.0), 1e9, 0.3));
+    scene.addUav(straightPlan(Vector3(10.0, abreast, vertical), Vector3(-3.0, 0.0, 0.0), 1e9 + epoch, 0.15));
+    return scene.check();
+  };
+  EXPECT_TRUE(verdict(2.2 + 1e-5, 0.0, 0.0).accepted());
+  EXPECT_TRUE(verdict(2.2 + 1e-5, 0.0, -0.7).accepted());
+  EXPECT_FALSE(verdict(2.2 - 1e-5, 0.0, -0.7).accepted());
+  const CheckVerdict refused = verdict(2.2 - 1e-5, 0.0, 0.0);
+  EXPECT_EQ(refused.reason, CheckReason::kUav);
+  EXPECT_NEAR(refused.time, 20.0 / 6.0, 0.15);
+  EXPECT_FALSE(refused.undecided);
+  EXPECT_TRUE(verdict(0.0, 1.2 + 1e-5, 0.0).accepted());
+  EXPECT_FALSE(verdict(0.0, 1.2 - 1e-5, 0.0).accepted());
+}
+
+TEST(PlanCheck, KnowsTheLeastDistanceFromASphereAndAWall) {
+  const auto passing = [](double y, const Vector3& radii, double exponent, double velocity) {
+    CheckScene scene;
+    scene.plan(straightPlan(Vector3(-10.0, 0.0, 0.0), Vector3(4.0, 0.0, 0.0), 1e9, 0.3));
+    scene.addObstacle(
+        Superellipsoid(1, Vector3(0.0, y, 0.0), radii, Vector3::Constant(exponent), 0.0, Vector3(velocity, 0.0, 0.0)));
+    return scene.check();
+  };
+  for (const double velocity : {0.0, 1.0, -1.0}) {
+    EXPECT_TRUE(passing(1.5 + 1e-5, Vector3::Ones(), 2.0, velocity).accepted());
+    EXPECT_EQ(passing(1.5 - 1e-5, Vector3::Ones(), 2.0, velocity).reason, CheckReason::kObstacle);
+    // Along a wall for 20 m.
+    EXPECT_TRUE(passing(1.5 + 1e-5, Vector3(8.0, 1.0, 3.0), 10.0, velocity).accepted());
+    EXPECT_EQ(passing(1.5 - 1e-5, Vector3(8.0, 1.0, 3.0), 10.0, velocity).reason, CheckReason::kObstacle);
+  }
+}
+
+TEST(PlanCheck, GrowsTheDistanceWithTheAgeOfThePrediction) {
+  const auto verdict = [](double age, double growth) {
+    CheckScene scene;
+    scene.plan(straightPlan(Vector3(-6.0, 0.0, 0.0), Vector3(3.0, 0.0, 0.0), 100.0, 0.3));
+    scene.addObstacle(
+        Superellipsoid(1, Vector3(0.0, 2.0, 0.0), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+    scene.surroundings.obstacles[0].stamp = 100.0 - age;
+    scene.surroundings.obstacles[0].growth_rate = growth;
+    return scene.check();
+  };
+  // Passed at 2 s with half a metre more than the 0.5 m demanded; closest a little later, at 0.5 = 2 g + g^2 / 9.
+  EXPECT_TRUE(verdict(0.0, 0.246).accepted());
+  EXPECT_FALSE(verdict(0.0, 0.248).accepted());
+  EXPECT_TRUE(verdict(3.0, 0.099).accepted());
+  EXPECT_FALSE(verdict(3.0, 0.101).accepted());
+}
+
+TEST(PlanCheck, LooksAheadAtTheRestingPlace) {
+  CheckScene scene;
+  scene.plan(straightPlan(Vector3::Zero(), Vector3::UnitX(), 0.0, 0.3));
+  ASSERT_TRUE(scene.check().accepted());
+  const double rests = scene.motion.duration();
+  const Vector3 place = scene.motion.restingPlace();
+  // It arrives 15 s after the UAV has come to rest.
+  const Vector3 velocity(0.0, -2.0, 0.0);
+  const double away = 1.0 + 0.5 + 2.0 * (rests + 15.0);
+  scene.addObstacle(
+      Superellipsoid(1, place + Vector3(0.0, away, 0.0), Vector3::Ones(), Vector3::Constant(2.0), 0.0, velocity));
+  const CheckVerdict verdict = scene.check();
+  EXPECT_EQ(verdict.reason, CheckReason::kRestingPlace);
+  EXPECT_GE(verdict.time, rests + 14.9);
+  EXPECT_LE(verdict.time, rests + 20.0);
+  scene.limits.look_ahead = 14.9;
+  EXPECT_TRUE(scene.check().accepted());
+  scene.limits.look_ahead = 15.1;
+  EXPECT_FALSE(scene.check().accepted());
+  scene.surroundings.obstacles[0].valid_until = rests + 10.0;
+  EXPECT_TRUE(scene.check().accepted());
+}
+
+TEST(PlanCheck, SeesAUavThatComesToTheRestingPlace) {
+  CheckScene scene;
+  scene.plan(makePlan({Vector3::Zero(), Vector3::Zero(), Vector3::Zero()}, noJerks(), 0.0, 0.15));
+  scene.addUav(straightPlan(Vector3(12.0, 1.0, 0.0), Vector3(-2.0, 0.0, 0.0), 0.0, 0.3));
+  const CheckVerdict verdict = scene.check();
+  EXPECT_EQ(verdict.reason, CheckReason::kUav);
+  EXPECT_GT(verdict.time, scene.motion.duration());
+}
+
+/// Verdict on a straight flight beside a sphere, that starts `clearance` from its surface.
+CheckVerdict besideASphere(double clearance, const Vector3& velocity, double least = 0.3) {
+  CheckScene scene;
+  scene.plan(straightPlan(Vector3(0.0, 1.0 + clearance, 0.0), velocity, 0.0, 0.3));
+  scene.addObstacle(Superellipsoid(1, Vector3::Zero(), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+  scene.surroundings.obstacles[0].least_distance = least;
+  return scene.check();
+}
+
+TEST(UsedMargin, NeedNotBeRegainedButMustNotShrink) {
+  const Vector3 zero = Vector3::Zero();
+  EXPECT_TRUE(besideASphere(0.4, zero).accepted());
+  EXPECT_TRUE(besideASphere(0.4, Vector3(1.0, 0.0, 0.0)).accepted());
+  EXPECT_TRUE(besideASphere(0.4, Vector3(1.0, 0.5, 0.0)).accepted());
+  EXPECT_FALSE(besideASphere(0.4, Vector3(0.0, -0.005, 0.0)).accepted());
+  EXPECT_TRUE(besideASphere(0.3, zero).accepted());
+  EXPECT_TRUE(besideASphere(0.3 - 0.9e-6, zero).accepted());
+  EXPECT_FALSE(besideASphere(0.3 - 2e-6, zero).accepted());
+  EXPECT_FALSE(besideASphere(0.3 - 2e-6, Vector3(0.0, 3.0, 0.0)).accepted());
+  EXPECT_FALSE(besideASphere(-0.5, Vector3(0.0, 3.0, 0.0), 0.0).accepted());  // inside
+}
+
+TEST(UsedMargin, OfAPairToo) {
+  const auto verdict = [](double apart, const Vector3& velocity) {
+    CheckScene scene;
+    scene.limits.pair_vertical = 3.0;
+    scene.plan(straightPlan(Vector3(0.0, apart, 0.0), velocity, 0.0, 0.3));
+    CommittedMotion other;
+    other.assignRest(-5.0, Vector3::Zero());
+    scene.addMotion(other);
+    return scene.check();
+  };
+  const Vector3 zero = Vector3::Zero();
+  EXPECT_TRUE(verdict(2.1, zero).accepted());
+  EXPECT_TRUE(verdict(2.1, Vector3(2.0, 0.0, 0.0)).accepted());
+  EXPECT_TRUE(verdict(2.1, Vector3(0.0, 2.0, 1.0)).accepted());
+  EXPECT_FALSE(verdict(2.1, Vector3(0.0, -0.005, 0.0)).accepted());
+  EXPECT_TRUE(verdict(2.0, zero).accepted());
+  EXPECT_FALSE(verdict(2.0 - 2e-6, zero).accepted());
+}
+
+TEST(UsedMargin, OfTheWorkspaceAndTheSpeedToo) {
+  const auto verdict = [](double x, double speed) {
+    CheckScene scene;
+    scene.limits.bounds.workspace.min = Vector3(-100.0, -100.0, -100.0);
+    scene.limits.bounds.workspace.max = Vector3(10.0, 100.0, 100.0);
+    scene.limits.workspace_slack = 0.2;
+    scene.limits.bound_slack = 0.02;
+    scene.plan(straightPlan(Vector3(x, 0.0, 0.0), Vector3(0.0, speed, 0.0), 0.0, 0.3));
+    return scene.check().reason;
+  };
+  EXPECT_EQ(verdict(10.0, 5.0), CheckReason::kAccepted);
+  EXPECT_EQ(verdict(10.15, 5.0), CheckReason::kAccepted);
+  EXPECT_EQ(verdict(10.21, 5.0), CheckReason::kWorkspace);
+  EXPECT_EQ(verdict(10.0, 5.09), CheckReason::kAccepted);
+  EXPECT_EQ(verdict(10.0, 5.11), CheckReason::kSpeed);
+}
+
+// The induction step: whatever was accepted is accepted again from any later knot of it on, if the new predictions stay
+// within the growth that the old ones stated. And its negative control.
+TEST(Induction, AnAcceptedMotionStaysAccepted) {
+  Random random(7);
+  int steps = 0;
+  int refused_after_too_much = 0;
+  for (int n = 0; n < 2000; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 4.0);
+    scene.addRandomObstacle(random, random.uniform(0.5, 0.8));
+    scene.addRandomUav(random, random.uniform(1.1, 1.5));
+    if (!scene.check().accepted()) continue;
+    const PredictedObstacle old = scene.surroundings.obstacles[0];
+    for (int dropped = 1; dropped <= scene.motion.pieces(); dropped += random.integer(1, 6)) {
+      CommittedMotion rest = scene.motion;
+      rest.dropPieces(dropped);
+      const auto recheck = [&](double factor) {
+        // Seen anew at the later epoch: off by up to what the growth allowed, at a velocity that leaves as much less.
+        const double elapsed = rest.epoch() - old.stamp;
+        const Vector3 error = factor * old.growth_rate * random.direction();
+        const Superellipsoid seen(1, old.body->center() + elapsed * (old.body->velocity() + error), old.body->radii(),
+                                  old.body->exponents(), old.body->yaw(), old.body->velocity());
+        CheckSurroundings surroundings = scene.surroundings;
+        surroundings.obstacles[0].body = &seen;
+        surroundings.obstacles[0].stamp = rest.epoch();
+        CheckLimits limits = scene.limits;
+        // What is proven to within a tolerance once need not be so to within none the next time.
+        surroundings.obstacles[0].least_distance -= 1e-5;
+        surroundings.obstacles[0].margin = 0.0;
+        limits.pair_horizontal -= 1e-5;
+        limits.pair_vertical -= 1e-5;
+        limits.pair_margin = 0.0;
+        limits.look_ahead -= rest.epoch() - scene.motion.epoch() - (scene.motion.duration() - rest.duration());
+        return checkClearance(rest, limits, surroundings);
+      };
+      const CheckVerdict verdict = recheck(1.0);
+      ASSERT_TRUE(verdict.accepted()) << n << " " << checkReasonText(verdict.reason) << " at " << verdict.time;
+      ++steps;
+      refused_after_too_much += recheck(100.0).accepted() ? 0 : 1;
+    }
+  }
+  std::printf("  %d steps; with a hundred times the growth %d refused\n", steps, refused_after_too_much);
+  EXPECT_GT(steps, 1000);
+  EXPECT_GT(refused_after_too_much, 20);
+}
+
+TEST(SupportBound, LiesBeyondTheBodyAndTouchesIt) {
+  Random random(8);
+  for (int n = 0; n < 3000; ++n) {
+    const Superellipsoid body = randomBody(random, 0.05, 5.0);
+    const Vector3 foot = randomOffset(random, body, 1.0);
+    const Vector3 normal = body.gauge(foot).gradient.normalized();
+    const double bound = supportBound(body, normal);
+    const double scale = body.boundingRadius();
+    ASSERT_NEAR(bound, normal.dot(foot), 1e-9 * scale) << body.exponents().transpose();
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_GE(bound, normal.dot(randomOffset(random, body, 1.0)) - 1e-11 * scale);
+    }
+  }
+}
+
+TEST(DistanceBound, IsNeverAboveTheDistanceAndExactBesideASphere) {
+  Random random(10);
+  for (int n = 0; n < 3000; ++n) {
+    const Superellipsoid body = randomBody(random, 0.05, 5.0);
+    const Vector3 u = randomOffset(random, body, random.logUniform(1.0, 100.0));
+    const double distance = body.signedDistance(body.center() + u);
+    ASSERT_LE(distanceBound(body, u), distance + 1e-9 * (distance + body.boundingRadius()));
+    ASSERT_GE(distanceBound(body, u), u.norm() - 2.0 * body.boundingRadius());
+  }
+  const Superellipsoid sphere(1, Vector3::Zero(), Vector3::Ones(), Vector3::Constant(2.0), 0.4, Vector3::Zero());
+  EXPECT_NEAR(distanceBound(sphere, Vector3(0.0, 0.0, 3.0)), 2.0, 1e-9);
+}
+
+TEST(CommittedMotion, IsItsPlanThenItsStopThenRest) {
+  Random random(9);
+  for (int n = 0; n < 200; ++n) {
+    CheckScene scene;
+    scene.planRandomly(random, 4.0);
+    const CommittedMotion& motion = scene.motion;
+    for (int i = 0; i < 50; ++i) {
+      const double t = random.uniform(-0.1, 1.3 * motion.duration());
+      const KinematicState x = motion.after(t);
+      if (t <= scene.trajectory.duration()) {
+        const KinematicState planned = scene.trajectory.after(t);
+        ASSERT_LT((x.p - planned.p).norm(), 1e-10);
+        ASSERT_LT((x.v - planned.v).norm(), 1e-9);
+        ASSERT_LT((x.a - planned.a).norm(), 1e-7);
+      }
+      if (t >= motion.duration()) {
+        ASSERT_EQ(x.p, motion.restingPlace());
+        ASSERT_EQ(x.v.norm() + x.a.norm(), 0.0);
+      }
+      if (t < 0.0) continue;
+      Box box = motion.boxOver(t, t + 0.5);
+      ASSERT_TRUE(box.near({x.p, x.p}, 1e-7));
+      ASSERT_TRUE(motion.box().near({x.p, x.p}, 1e-12));
+    }
+    CommittedMotion rest = motion;
+    const int dropped = random.integer(0, motion.pieces());
+    rest.dropPieces(dropped);
+    const double t = random.uniform(0.0, motion.duration());
+    ASSERT_LT((rest.after(t).p - motion.after(t + dropped * motion.dt()).p).norm(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace swarm_planner
