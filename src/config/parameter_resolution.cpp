@@ -14,6 +14,9 @@ namespace {
 /// A plan has to last until later ones have replaced it, so a cycle may take this many stages at most.
 constexpr double kMostStagesPerCycle = 5.0;
 
+/// What of tracking_margin tracking_error is unless it is given; two UAVs may stray towards each other.
+constexpr double kErrorShare = 0.25;
+
 /// A computed number with as many decimals as a reader wants.
 double forMessage(double number) { return std::round(1e4 * number) / 1e4; }
 
@@ -59,6 +62,7 @@ class Resolution {
     if (!isSet("tracking_margin")) {
       limits.tracking_margin = std::clamp(0.1 * std::min(2.0 * limits.uav_radius, limits.pair_distance), 0.02, 0.2);
     }
+    if (!isSet("tracking_error")) limits.tracking_error = kErrorShare * limits.tracking_margin;
   }
 
   /// Checks of one parameter against another. A parameter that already has a fault is not judged again.
@@ -80,6 +84,12 @@ class Resolution {
       faultPair("cycle_period", "sampling_time",
                 "expected at most " + formatNumber(kMostStagesPerCycle) + " sampling times of " +
                     formatNumber(p.time.sampling_time) + " s, found " + formatNumber(p.time.cycle_period) + " s");
+    }
+    if (2.0 * p.limits.tracking_error > p.limits.tracking_margin) {
+      faultPair("tracking_error", "tracking_margin",
+                "expected at most half of tracking_margin " + formatNumber(p.limits.tracking_margin) +
+                    " m, since two UAVs may stray towards each other; found " + formatNumber(p.limits.tracking_error) +
+                    " m");
     }
     const double fastest_rate = std::max(p.simulation.odometry_rate, p.simulation.track_rate);
     if (p.simulation.step * fastest_rate > 1.0) {

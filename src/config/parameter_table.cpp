@@ -101,6 +101,10 @@ void addLimits(TableBuilder& table) {
       "tracking_margin", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_margin; },
       "what the planner keeps on top of uav_radius and pair_distance for tracking errors");
   table.withRule();
+  table.number(
+      "tracking_error", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_error; },
+      "how far a vehicle may stray from what it is asked to fly; the part of tracking_margin that no plan may use up");
+  table.withRule();
   table.boolean(
       "avoidance", [](P& p) -> bool& { return p.limits.avoidance; },
       "false: plans ignore obstacles and other UAVs; for negative controls only");
@@ -190,6 +194,12 @@ void addInput(TableBuilder& table) {
   table.number(
       "tracking_time", "s", Range::above(0.0), [](P& p) -> double& { return p.input.tracking_time; },
       "time constant with which a vehicle's deviation from its plan decays");
+  table.number(
+      "odometry_noise", "m", Range::atLeast(0.0), [](P& p) -> double& { return p.input.odometry_noise; },
+      "deviations from the plan up to this may be noise alone: a fifth of them is carried into the next plan's start");
+  table.wholeNumber(
+      "lost_setpoints", Range::closed(0.0, 10.0), [](P& p) -> int& { return p.input.lost_setpoints; },
+      "so many trajectories in a row may fail to reach a vehicle: others keep clear of the older one as long");
   table.boolean(
       "autostart", [](P& p) -> bool& { return p.input.autostart; },
       "start as soon as the odometry of every UAV has arrived");

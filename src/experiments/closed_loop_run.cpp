@@ -125,7 +125,8 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
 }
 
 void ClosedLoopRun::sendSetpoints(std::size_t uav, double now) {
-  samplePlan(planner_.committed(uav), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
+  const CommittedMotion& motion = planner_.committed(uav);
+  sampleMotion(motion, motion.epoch(), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
   setpoint_links_[uav].send(now, setpoints_);
   receiveSetpoints(uav, now);
 }
@@ -143,6 +144,10 @@ void ClosedLoopRun::record(const CycleReport& report) {
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
     if (uav.reason != Reason::kNone) ++result_.fallbacks[reasonText(uav.reason)];
+    if (uav.refusal != CheckReason::kAccepted) {
+      ++result_.rejected_plans;
+      ++result_.refusals[checkReasonText(uav.refusal)];
+    }
     if (uav.sqp_iterations == 0) continue;  // nothing was solved for it
     uav_ms_.push_back(kSecondsToMilliseconds * uav.solve_time);
     sqp_iterations_.push_back(uav.sqp_iterations);

@@ -27,6 +27,8 @@ JsonObject disturbances(const SimulationParameters& simulation) {
 JsonObject toObject(const RunResult& run) {
   JsonObject fallbacks;
   for (const auto& [reason, count] : run.fallbacks) fallbacks.addCount(reason, count);
+  JsonObject refusals;
+  for (const auto& [reason, count] : run.refusals) refusals.addCount(reason, count);
   const RunSummary& flown = run.flown;
   JsonObject object;
   object.add("scenario", run.scenario)
@@ -48,6 +50,7 @@ JsonObject toObject(const RunResult& run) {
       .add("tracking_error_m", toObject(flown.tracking_error))
       .addCount("arrived_uavs", static_cast<unsigned>(flown.arrived_uavs))
       .addCount("rejected_plans", run.rejected_plans)
+      .add("refusals", refusals)
       .addCount("workspace_violations", static_cast<unsigned>(flown.workspace_violations))
       .add("fallbacks", fallbacks)
       .addCount("deadline_misses", run.deadline_misses)

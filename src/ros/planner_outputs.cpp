@@ -31,11 +31,11 @@ void PlannerOutputs::publishPlans(const SwarmPlanner& planner, const std::vector
   for (std::size_t uav = 0; uav < report.uavs.size(); ++uav) {
     waiting_[uav] = report.uavs[uav].planned;
     if (!waiting_[uav]) continue;
-    const Trajectory& plan = planner.committed(uav);
-    samplePlan(plan, setpoint_dt_, setpoint_horizon_, inputs[uav].start_yaw, samples_);
+    const CommittedMotion& motion = planner.committed(uav);
+    sampleMotion(motion, motion.epoch(), setpoint_dt_, setpoint_horizon_, inputs[uav].start_yaw, samples_);
     toMessage(samples_, frame_, trajectories_[uav]);
     swarm_plan_.plans.emplace_back();
-    toMessage(plan, planner.uavName(uav), swarm_plan_.plans.back());
+    toMessage(motion, planner.uavName(uav), swarm_plan_.plans.back());
   }
   if (delivery_ == SetpointDelivery::kAtOnce) sendWaitingSetpoints();
   swarm_plan_.header.stamp = toRosTime(now);

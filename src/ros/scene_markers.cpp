@@ -100,8 +100,9 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
   if (uav.planned) {
     Marker& plan = add("plan", index, Marker::LINE_STRIP);
     constexpr int kPointsPerSegment = 2;
-    for (int i = 0; i <= kPointsPerSegment * kHorizon; ++i) {
-      plan.points.push_back(toPoint(uav.plan.at(uav.plan.epoch + i * uav.plan.dt / kPointsPerSegment).p));
+    // A line of one point is none: a motion at rest is drawn from its place to the same.
+    for (int i = 0; i <= std::max(1, kPointsPerSegment * uav.plan.pieces()); ++i) {
+      plan.points.push_back(toPoint(uav.plan.after(i * uav.plan.dt() / kPointsPerSegment).p));
     }
     plan.scale.x = 0.3 * sizes_.uav;
     plan.color = uavColor(index, 0.45F);

@@ -45,41 +45,22 @@ SetpointTrajectory toSetpoints(const trajectory_msgs::MultiDOFJointTrajectory& m
   return trajectory;
 }
 
-void toMessage(const Trajectory& plan, const std::string& uav, UavPlan& message) {
+void toMessage(const CommittedMotion& motion, const std::string& uav, UavPlan& message) {
   message.name = uav;
-  message.epoch = toRosTime(plan.epoch);
-  message.dt = plan.dt;
-  message.jerks.resize(3 * plan.jerks.size());
-  const KinematicState& start = plan.knots.front();
+  message.epoch = toRosTime(motion.epoch());
+  message.dt = motion.dt();
+  message.jerks.resize(3 * static_cast<std::size_t>(motion.pieces()));
+  const KinematicState start = motion.after(0.0);
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     message.position[i] = start.p[axis];
     message.velocity[i] = start.v[axis];
     message.acceleration[i] = start.a[axis];
-    for (std::size_t k = 0; k < plan.jerks.size(); ++k) message.jerks[3 * k + i] = plan.jerks[k][axis];
   }
-}
-
-Trajectory toTrajectory(const UavPlan& message) {
-  if (message.jerks.size() != 3 * static_cast<std::size_t>(kHorizon)) {
-    throw std::invalid_argument("a plan of '" + message.name + "' has " + std::to_string(message.jerks.size()) +
-                                " jerks, expected " + std::to_string(3 * kHorizon));
+  for (int k = 0; k < motion.pieces(); ++k) {
+    const Vector3 jerk = motion.jerk(k);
+    for (int axis = 0; axis < 3; ++axis) message.jerks[3 * static_cast<std::size_t>(k) + axis] = jerk[axis];
   }
-  if (!(message.dt > 0.0))
-    throw std::invalid_argument("a plan of '" + message.name + "' has a dt that is not positive");
-  Trajectory plan;
-  plan.epoch = toSeconds(message.epoch);
-  plan.dt = message.dt;
-  KinematicState start;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    start.p[axis] = message.position[i];
-    start.v[axis] = message.velocity[i];
-    start.a[axis] = message.acceleration[i];
-    for (std::size_t k = 0; k < plan.jerks.size(); ++k) plan.jerks[k][axis] = message.jerks[3 * k + i];
-  }
-  rollOut(start, plan);
-  return plan;
 }
 
 }  // namespace swarm_planner

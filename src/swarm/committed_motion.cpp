@@ -77,6 +77,12 @@ void CommittedMotion::finish() {
   for (std::size_t g = 0; g * kGroup < count; ++g) include(box_, group_boxes_[g]);
 }
 
+Vector3 CommittedMotion::jerk(int k) const {
+  if (k >= pieces_) return Vector3::Zero();
+  const BernsteinPoints<4> p = piece(k);
+  return 6.0 / (dt_ * dt_ * dt_) * (p[3] - p[0] + 3.0 * (p[1] - p[2]));
+}
+
 KinematicState CommittedMotion::after(double elapsed) const {
   if (pieces_ == 0 || elapsed >= duration()) return {restingPlace(), Vector3::Zero(), Vector3::Zero()};
   // Compared before the conversion to an integer: a time far from the epoch would overflow it.

@@ -102,18 +102,19 @@ CheckVerdict checkWorkspace(const CommittedMotion& motion, const CheckLimits& li
 /// One motion against one obstacle. Times are in seconds after the motion's epoch.
 class ObstacleCheck {
  public:
-  ObstacleCheck(const CommittedMotion& motion, const PredictedObstacle& obstacle, double look_ahead)
+  ObstacleCheck(const CommittedMotion& motion, const PredictedObstacle& obstacle, const CheckLimits& limits)
       : motion_(motion),
         body_(*obstacle.body),
         growth_rate_(obstacle.growth_rate),
         center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
-        distance_(obstacle.least_distance + obstacle.margin + growth_rate_ * (motion.epoch() - obstacle.stamp)),
-        end_(std::min(motion.duration() + look_ahead, obstacle.valid_until - motion.epoch())),
+        margin_(limits.demand_margin ? obstacle.margin : 0.0),
+        distance_(obstacle.least_distance + margin_ + growth_rate_ * (motion.epoch() - obstacle.stamp)),
+        end_(std::min(motion.duration() + limits.look_ahead, obstacle.valid_until - motion.epoch())),
         proof_(body_) {}
 
-  CheckVerdict run(double margin) {
+  CheckVerdict run(const Vector3& committed) {
     if (end_ < 0.0 || isFar(motion_.box(), 0.0, end_)) return {};
-    if (!relieve(margin)) return {CheckReason::kObstacle, 0.0};
+    if (!relieve(committed)) return {CheckReason::kObstacle, 0.0};
     for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
       const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
       const double from = first * motion_.dt();
@@ -144,14 +145,21 @@ class ObstacleCheck {
   }
 
   /// Reduces what is demanded to what the start has. False if that is not enough.
-  bool relieve(double margin) {
+  bool relieve(const Vector3& committed) {
     distance_ = std::max(distance_ - kDistanceTolerance, 0.0);
     const Vector3 relative = motion_.start() - center_;
     const Vector3 gap = (relative.cwiseAbs() - body_.halfExtents()).cwiseMax(0.0);
     if (gap.squaredNorm() > distance_ * distance_ || distanceBound(body_, relative) > distance_) return true;
     const double missing = distance_ - body_.signedDistance(body_.center() + relative);
-    if (missing > margin) return false;
-    if (missing > 0.0) distance_ -= std::min(missing + kUsedMarginTolerance, margin);
+    if (missing <= 0.0) return true;
+    double waived = margin_;
+    if (missing > margin_) {
+      const Vector3 before = committed - center_;
+      waived = std::max(margin_, distance_ - body_.signedDistance(body_.center() + before));
+      waived = std::min(waived, distance_);
+    }
+    if (missing > waived) return false;
+    distance_ -= std::min(missing + kUsedMarginTolerance, waived);
     return true;
   }
 
@@ -171,6 +179,7 @@ class ObstacleCheck {
   const Superellipsoid& body_;
   double growth_rate_;
   Vector3 center_;   ///< at the epoch
+  double margin_;
   double distance_;  ///< demanded at the epoch [m]
   double end_;
   ObstacleProof proof_;
@@ -179,25 +188,30 @@ class ObstacleCheck {
 /// One motion against another UAV's, on the union of their knots. Times are in seconds after the first one's epoch.
 class PairCheck {
  public:
-  PairCheck(const CommittedMotion& motion, const CommittedMotion& other, const CheckLimits& limits)
+  PairCheck(const CommittedMotion& motion, const OtherMotion& other, const CheckLimits& limits)
       : motion_(motion),
-        other_(other),
-        offset_(other.epoch() - motion.epoch()),
-        proof_(limits.pair_horizontal + limits.pair_margin, limits.pair_vertical + limits.pair_margin) {}
+        other_(*other.motion),
+        offset_(other.motion->epoch() - motion.epoch()),
+        end_(other.valid_until - motion.epoch()),
+        limits_(limits),
+        margin_(limits.demand_margin ? limits.pair_margin : 0.0),
+        proof_(limits.pair_horizontal + margin_, limits.pair_vertical + margin_) {}
 
-  CheckVerdict run(const CheckLimits& limits) {
+  CheckVerdict run(const Vector3& committed) {
     // Before its epoch the other one may be anywhere along its first piece, drawn out.
-    if (offset_ <= kTimeTolerance && proof_.areApart(motion_.box(), other_.box())) return {};
-    proof_ = relievedProof(limits);
+    if (end_ < 0.0 || (offset_ <= kTimeTolerance && proof_.areApart(motion_.box(), other_.box()))) return {};
+    proof_ = relievedProof(committed);
     for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
       const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
+      if (first * motion_.dt() > end_) return {};
       if (areApart(first, last)) continue;
-      for (int k = first; k < last; ++k) {
+      for (int k = first; k < last && k * motion_.dt() <= end_; ++k) {
         if (areApart(k, k + 1)) continue;
         const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
         if (!verdict.accepted()) return verdict;
       }
     }
+    if (motion_.duration() > end_) return {};
     // The other one may fly on while this one rests; once both rest nothing changes any more.
     const double end = motion_.duration();
     const double other_end = std::max(offset_ + other_.duration(), end);
@@ -218,25 +232,33 @@ class PairCheck {
     return proof_.areApart(own, other_.boxOver(from, to));
   }
 
-  /// Semi-axes between the least ones and those with the margin: those on which the start lies, if within.
-  PairProof relievedProof(const CheckLimits& limits) const {
-    const Vector3 d = motion_.start() - other_.after(-offset_).p;
-    const auto gauge = [&](double extra) {
-      const Vector3 scaled(d.x() / (limits.pair_horizontal + extra), d.y() / (limits.pair_horizontal + extra),
-                           d.z() / (limits.pair_vertical + extra));
-      return scaled.norm();
+  /// What a distance `d` of the UAVs has beyond the least semi-axes, up to `most`; negative if it has less than them.
+  double marginOf(const Vector3& d, double most) const {
+    const auto isOutside = [&](double extra) {
+      const Vector3 scaled(d.x() / (limits_.pair_horizontal + extra), d.y() / (limits_.pair_horizontal + extra),
+                           d.z() / (limits_.pair_vertical + extra));
+      return scaled.squaredNorm() >= 1.0;
     };
-    double low = 0.0;
-    double high = limits.pair_margin;
-    if (gauge(high - kDistanceTolerance) < 1.0) {
-      for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (gauge(middle) >= 1.0 ? low : high) = middle;
-      }
-      high = std::max(low - kUsedMarginTolerance, 0.0);
+    if (isOutside(most - kDistanceTolerance)) return most;
+    double low = (kLeastScale - 1.0) * std::min(limits_.pair_horizontal, limits_.pair_vertical);
+    double high = most;
+    for (int i = 0; i < 50; ++i) {
+      const double middle = 0.5 * (low + high);
+      (isOutside(middle) ? low : high) = middle;
     }
-    const double extra = high - kDistanceTolerance;
-    return PairProof(limits.pair_horizontal + extra, limits.pair_vertical + extra);
+    return low;
+  }
+
+  /// Semi-axes with the margin, or those on which the start lies, but no less than the rule demands.
+  PairProof relievedProof(const Vector3& committed) const {
+    const Vector3 other = other_.after(-offset_).p;
+    double extra = marginOf(motion_.start() - other, margin_);
+    if (extra < margin_) {
+      const double least = extra < 0.0 ? std::min(0.0, marginOf(committed - other, 0.0)) : 0.0;
+      extra = std::max(extra - kUsedMarginTolerance, least);
+    }
+    extra -= kDistanceTolerance;
+    return PairProof(limits_.pair_horizontal + extra, limits_.pair_vertical + extra);
   }
 
   /// Where the other UAV is in `piece` (its index) over [from, to], extrapolated if need be.
@@ -274,9 +296,15 @@ class PairCheck {
     return {};
   }
 
+  /// Of the least semi-axes; UAVs closer than that would divide by nothing.
+  static constexpr double kLeastScale = 1e-3;
+
   const CommittedMotion& motion_;
   const CommittedMotion& other_;
   double offset_;  ///< the other's epoch minus the first one's [s]
+  double end_;     ///< until when the other one may be flown [s]
+  const CheckLimits& limits_;
+  double margin_;
   PairProof proof_;
 };
 
@@ -311,11 +339,13 @@ const char* checkReasonText(CheckReason reason) {
       return "too close to another UAV";
     case CheckReason::kRestingPlace:
       return "an obstacle comes to its resting place";
+    case CheckReason::kOutOfArea:
+      return "goes farther than others expect";
   }
   return "unknown";
 }
 
-CheckVerdict checkClearance(const CommittedMotion& motion, const CheckLimits& limits,
+CheckVerdict checkClearance(const CommittedMotion& motion, const Vector3& committed, const CheckLimits& limits,
                             const CheckSurroundings& surroundings) {
   if (!motion.isFinite()) return {CheckReason::kNotFinite};
   const CheckVerdict workspace = checkWorkspace(motion, limits);
@@ -323,20 +353,20 @@ CheckVerdict checkClearance(const CommittedMotion& motion, const CheckLimits& li
   for (std::size_t i = 0; i < surroundings.obstacles.size(); ++i) {
     const PredictedObstacle& obstacle = surroundings.obstacles[i];
     if (!isFinite(obstacle)) return withBody({CheckReason::kNotFinite}, i);
-    const CheckVerdict verdict = ObstacleCheck(motion, obstacle, limits.look_ahead).run(obstacle.margin);
+    const CheckVerdict verdict = ObstacleCheck(motion, obstacle, limits).run(committed);
     if (!verdict.accepted()) return withBody(verdict, i);
   }
   for (std::size_t i = 0; i < surroundings.uavs.size(); ++i) {
-    const CommittedMotion& other = *surroundings.uavs[i];
-    if (!other.isFinite()) return withBody({CheckReason::kNotFinite}, i);
-    const CheckVerdict verdict = PairCheck(motion, other, limits).run(limits);
+    const OtherMotion& other = surroundings.uavs[i];
+    if (!other.motion->isFinite()) return withBody({CheckReason::kNotFinite}, i);
+    const CheckVerdict verdict = PairCheck(motion, other, limits).run(committed);
     if (!verdict.accepted()) return withBody(verdict, i);
   }
   return {};
 }
 
-CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, const CheckLimits& limits,
-                       const CheckSurroundings& surroundings, CommittedMotion& motion) {
+CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, const Vector3& committed,
+                       const CheckLimits& limits, const CheckSurroundings& surroundings, CommittedMotion& motion) {
   if (!isFinite(plan) || !isFinite(start)) return {CheckReason::kNotFinite};
   const FlightBounds bounds = relieveBounds(limits.bounds, start, limits.bound_slack);
   const CheckVerdict dynamics = checkDynamics(plan, start, bounds);
@@ -346,7 +376,7 @@ CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, cons
   motion.assign(plan, stop);
   if (!dynamics.accepted()) return dynamics;
   if (!stop.within_bounds) return {CheckReason::kNoStop, plan.duration()};
-  return checkClearance(motion, limits, surroundings);
+  return checkClearance(motion, committed, limits, surroundings);
 }
 
 }  // namespace swarm_planner

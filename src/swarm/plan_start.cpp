@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/swarm/plan_start.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace swarm_planner {
@@ -9,17 +10,26 @@ KinematicState predictFromMeasurement(const UavMeasurement& measurement, double 
   return {measurement.p + (epoch - measurement.stamp) * measurement.v, measurement.v, Vector3::Zero()};
 }
 
-KinematicState predictFromPlan(const Trajectory& committed, const Trajectory& flown, const UavMeasurement& measurement,
-                               double epoch, double tracking_time) {
-  const KinematicState expected = flown.at(measurement.stamp);
-  const double decay = std::exp(-(epoch - measurement.stamp) / tracking_time);
-  KinematicState start = committed.at(epoch);
-  start.p += decay * (measurement.p - expected.p);
-  start.v += decay * (measurement.v - expected.v);
+double carriedShare(const Vector3& dp, const Vector3& dv, double band, double tracking_time) {
+  const double size = std::max(dp.norm(), tracking_time * dv.norm());
+  if (size <= band) return kLeastCarried;
+  return std::max(kLeastCarried, 1.0 - (band / size) * (band / size));
+}
+
+KinematicState carryDeviation(const KinematicState& planned, const KinematicState& expected,
+                              const UavMeasurement& measurement, double epoch, const InputParameters& parameters) {
+  const Vector3 dp = measurement.p - expected.p;
+  const Vector3 dv = measurement.v - expected.v;
+  const double decay = std::exp(-(epoch - measurement.stamp) / parameters.tracking_time);
+  const double share = decay * carriedShare(dp, dv, parameters.odometry_noise, parameters.tracking_time);
+  KinematicState start = planned;
+  start.p += share * dp;
+  start.v += share * dv;
   return start;
 }
 
-void shiftPlan(const Trajectory& committed, const KinematicState& start, double epoch, double dt, Trajectory& plan) {
+void shiftPlan(const CommittedMotion& committed, const KinematicState& start, double epoch, double dt,
+               Trajectory& plan) {
   plan.epoch = epoch;
   plan.dt = dt;
   Vector3 acceleration = start.a;

@@ -3,6 +3,8 @@
 
 namespace swarm_planner {
 
+bool isAlarm(Reason reason) { return reason == Reason::kNoSafePlan; }
+
 const char* reasonText(Reason reason) {
   switch (reason) {
     case Reason::kNone:
@@ -19,10 +21,20 @@ const char* reasonText(Reason reason) {
       return "odometry is stamped in the future";
     case Reason::kOdometryNotFinite:
       return "odometry is not finite or absurdly large";
-    case Reason::kConstraintsViolated:
-      return "no plan keeps all distances and limits; flying the least violating one";
     case Reason::kSolverFailed:
       return "the solver gave no plan; the last one goes on";
+    case Reason::kPlanRefused:
+      return "the plan did not pass the check; the last one goes on";
+    case Reason::kBraking:
+      return "no plan passed the check; braking";
+    case Reason::kUnsafeRest:
+      return "an obstacle will come to where it can rest";
+    case Reason::kNoSafePlan:
+      return "no plan keeps all distances; flying the least violating one";
+    case Reason::kOverrun:
+      return "no time left to plan; the last plan goes on";
+    case Reason::kStraying:
+      return "strays from its plan by more than tracking_margin";
   }
   return "unknown reason";
 }

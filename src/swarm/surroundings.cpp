@@ -5,54 +5,61 @@
 #include <cmath>
 
 namespace swarm_planner {
+namespace {
+
+void include(Box& box, const Box& other) {
+  box.min = box.min.cwiseMin(other.min);
+  box.max = box.max.cwiseMax(other.max);
+}
+
+}  // namespace
 
 Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles)
     : parameters_(parameters),
       horizontal_(parameters.limits.pair_distance + parameters.limits.tracking_margin),
       vertical_(parameters.limits.pair_distance_vertical + parameters.limits.tracking_margin),
       motions_(uav_count),
-      known_(uav_count, 0),
+      predictions_(uav_count),
       areas_(uav_count) {
   obstacles_.reserve(max_obstacles);
+  checked_obstacles_.reserve(max_obstacles);
   neighbours_.reserve(uav_count);
 }
 
-void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch) {
+void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now) {
+  const LimitParameters& limits = parameters_.limits;
   obstacles_.clear();
+  checked_obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
     if (now - track.stamp > parameters_.input.track_timeout) continue;
-    obstacles_.push_back(track.shape.movedBy(epoch - track.stamp));
+    obstacles_.push_back(track.shape.movedBy(epoch_ - track.stamp));
+    PredictedObstacle checked;
+    checked.stamp = epoch_;
+    checked.least_distance = limits.uav_radius + limits.tracking_error;
+    checked.margin = limits.tracking_margin - limits.tracking_error;
+    checked_obstacles_.push_back(checked);
   }
+  // Only now that they stay where they are.
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) checked_obstacles_[i].body = &obstacles_[i];
 }
 
 void Surroundings::setUnknown(std::size_t uav) {
-  known_[uav] = 0;
+  motions_[uav] = Motions();
   areas_[uav] = Box();
 }
 
-void Surroundings::setPlan(std::size_t uav, const Trajectory& plan, double epoch) {
-  predict(plan, epoch, parameters_.time.sampling_time, motions_[uav]);
-  known_[uav] = 1;
+void Surroundings::setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older) {
+  replaceMotions(uav, newest, older);
   areas_[uav] = motions_[uav].box;
 }
 
-void Surroundings::setLastPlan(std::size_t uav, const Trajectory& plan, double epoch) {
-  predictToRest(plan, epoch, parameters_.time.sampling_time, motions_[uav]);
-  known_[uav] = 1;
-  areas_[uav] = motions_[uav].box;
+void Surroundings::replaceMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older) {
+  predict(newest, epoch_, parameters_.time.sampling_time, predictions_[uav]);
+  motions_[uav] = {&newest, older, newest.box()};
+  if (older != nullptr) include(motions_[uav].box, older->box());
 }
 
-void Surroundings::setResting(std::size_t uav, const Vector3& position) {
-  predictResting(position, motions_[uav]);
-  known_[uav] = 1;
-  areas_[uav] = motions_[uav].box;
-}
-
-void Surroundings::setPlanning(std::size_t uav, const KinematicState& start) {
-  const Box box = reach(start);
-  areas_[uav].include(box.min);
-  areas_[uav].include(box.max);
-}
+void Surroundings::setPlanning(std::size_t uav, const KinematicState& start) { include(areas_[uav], reach(start)); }
 
 void Surroundings::findNeighbours() {
   const Vector3 half = 0.5 * Vector3(horizontal_, horizontal_, vertical_);
@@ -61,6 +68,13 @@ void Surroundings::findNeighbours() {
     area.max += half;
   }
   neighbours_.build(areas_);
+}
+
+bool Surroundings::isWithinArea(std::size_t uav, const CommittedMotion& motion) const {
+  const Vector3 half = 0.5 * Vector3(horizontal_, horizontal_, vertical_);
+  const Box& area = areas_[uav];
+  return (motion.box().min.array() >= (area.min + half).array()).all() &&
+         (motion.box().max.array() <= (area.max - half).array()).all();
 }
 
 Box Surroundings::reach(const KinematicState& start) const {
@@ -80,8 +94,7 @@ void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
 void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const {
   const double level = std::exp(parameters_.cost.epsilon_s);
   const double distance = parameters_.limits.uav_radius + parameters_.limits.tracking_margin;
-  // The robustness function reaches as far as S = r_b, at most sqrt(r_b) radii.
-  const double halo = std::sqrt(parameters_.cost.robustness_outer) - 1.0;
+  const double halo = std::sqrt(parameters_.cost.robustness_outer);
   for (const Superellipsoid& obstacle : obstacles_) {
     MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
@@ -93,13 +106,28 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
 
 void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const {
   for (const std::uint32_t other : neighbours_.of(uav)) {
-    const PredictedMotion& motion = motions_[other];
-    if (!known_[other] || !motion.box.near(reach, std::max(horizontal_, vertical_))) continue;
+    if (motions_[other].newest == nullptr) continue;
+    if (!motions_[other].box.near(reach, std::max(horizontal_, vertical_))) continue;
+    const PredictedMotion& motion = predictions_[other];
+    if (!motion.box.near(reach, std::max(horizontal_, vertical_))) continue;
     MovingBody body = MovingBody::fromUav(motion, horizontal_, vertical_,
                                           uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()));
     body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.tracking_margin);
     body.setIdentity(2 * other + 1);
     problem.bodies.push_back(body);
+  }
+}
+
+void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) const {
+  surroundings.clear();
+  if (!parameters_.limits.avoidance) return;
+  surroundings.obstacles.assign(checked_obstacles_.begin(), checked_obstacles_.end());
+  const double lost_until = epoch_ + parameters_.input.lost_setpoints * parameters_.time.cycle_period;
+  for (const std::uint32_t other : neighbours_.of(uav)) {
+    const Motions& motions = motions_[other];
+    if (motions.newest == nullptr || !motions.box.near(areas_[uav], 0.5 * std::max(horizontal_, vertical_))) continue;
+    surroundings.uavs.push_back({motions.newest});
+    if (motions.older != nullptr && lost_until > epoch_) surroundings.uavs.push_back({motions.older, lost_until});
   }
 }
 

@@ -64,7 +64,7 @@ class SwarmPlanner::Impl {
     }
   }
 
-  void plan(const Snapshot& snapshot, double epoch) {
+  void plan(const Snapshot& snapshot, double epoch, double budget) {
     const Stopwatch stopwatch;
     ++report.cycle;
     report.epoch = epoch;
@@ -73,7 +73,7 @@ class SwarmPlanner::Impl {
       report.started = true;
       report.time_zero = epoch;
     }
-    if (report.started) planAll(snapshot, epoch);
+    if (report.started) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
 
@@ -104,43 +104,65 @@ class SwarmPlanner::Impl {
     return parameters.input.autostart && all_arrived;
   }
 
-  void planAll(const Snapshot& snapshot, double epoch) {
-    surroundings.setObstacles(snapshot.obstacles, snapshot.now, epoch);
+  void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
+    surroundings.setEpoch(epoch);
+    surroundings.setObstacles(snapshot.obstacles, snapshot.now);
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     surroundings.findNeighbours();
-    order.build(surroundings.neighbours());
+    order.build(surroundings.neighbours(), first);
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
-        if (judged[i] == Reason::kNone) planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
+        if (judged[i] != Reason::kNone) return;
+        if (stopwatch.elapsed() > budget) {
+          goOn(i, epoch);
+        } else {
+          planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
+        }
       });
     }
+    noteOverrun();
   }
 
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
-    const bool measured = judged[i] == Reason::kNone;
-    if (uav.isFlyingPlanAt(epoch) && measured) {
-      surroundings.setPlan(i, uav.committed, epoch);
-    } else if (measured) {
-      surroundings.setResting(i, snapshot.uavs[i].p);
-    } else if (uav.plans > 0) {
-      surroundings.setLastPlan(i, uav.committed, epoch);
-    } else {
-      surroundings.setUnknown(i);
-    }
     if (uav.reference_pending) uav.reference.time_zero = epoch;
     uav.reference_pending = false;
-    if (!measured) return;
-    uav.predictStart(snapshot.uavs[i], epoch, parameters.input.tracking_time);
-    surroundings.setPlanning(i, uav.start);
+    const bool measured = judged[i] == Reason::kNone;
+    if (measured) uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (uav.motions.empty()) {
+      surroundings.setUnknown(i);
+    } else {
+      surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
+    }
+    if (measured) surroundings.setPlanning(i, uav.start);
+  }
+
+  /// There is no time to plan for the UAV.
+  void goOn(std::size_t i, double epoch) {
+    uavs[i].motions.goOn(epoch);
+    report.uavs[i].planned = uavs[i].planned;
+    report.uavs[i].state = UavState::kFallback;
+    report.uavs[i].reason = Reason::kOverrun;
+  }
+
+  /// Who missed its turn comes first in the next cycle, so that nobody misses it for ever.
+  void noteOverrun() {
+    report.out_of_time = false;
+    for (std::size_t position = 0; position < uavs.size() && !report.out_of_time; ++position) {
+      const std::size_t i = order.uav(position);
+      if (report.uavs[i].reason != Reason::kOverrun) continue;
+      report.out_of_time = true;
+      first = i;
+    }
   }
 
   Surroundings surroundings;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
+  std::size_t first = 0;             ///< the UAV that plans first
   std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
 };
 
@@ -152,13 +174,13 @@ SwarmPlanner& SwarmPlanner::operator=(SwarmPlanner&&) noexcept = default;
 std::size_t SwarmPlanner::uavCount() const { return impl_->uavs.size(); }
 const std::string& SwarmPlanner::uavName(std::size_t uav) const { return impl_->uavs[uav].name; }
 
-const CycleReport& SwarmPlanner::plan(const Snapshot& snapshot, double epoch) {
-  impl_->plan(snapshot, epoch);
+const CycleReport& SwarmPlanner::plan(const Snapshot& snapshot, double epoch, double budget) {
+  impl_->plan(snapshot, epoch, budget);
   return impl_->report;
 }
 
 const CycleReport& SwarmPlanner::report() const { return impl_->report; }
-const Trajectory& SwarmPlanner::committed(std::size_t uav) const { return impl_->uavs[uav].committed; }
+const CommittedMotion& SwarmPlanner::committed(std::size_t uav) const { return impl_->uavs[uav].motions.newest(); }
 
 TargetState SwarmPlanner::target(std::size_t uav, double t) const {
   const MovingTarget& reference = impl_->uavs[uav].reference;

@@ -2,13 +2,46 @@
 #include "swarm_planner/swarm/uav_planner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 
 namespace swarm_planner {
+namespace {
+
+constexpr double kBoundSlack = 0.1;       // of a bound, by which a measured start may exceed it
+constexpr double kMoved = 0.5;            // a UAV at rest that is so far from its place has been moved [m]
+constexpr double kDeviationGain = 0.2;    // of a new measurement in the mean deviation
+constexpr double kSamePlace = 1e-6;       // starts closer than this are the same [m, m/s]
+constexpr double kSameShortfall = 1e-3;   // [m]
+constexpr double kLostMargins = 2.0;      // tracking margins by which a lost setpoint shows
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Steps from the motion flown towards the solver's plan.
+constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
+
+CheckLimits makeCheckLimits(const Parameters& parameters, const Workspace* workspace) {
+  const LimitParameters& distances = parameters.limits;
+  CheckLimits limits;
+  limits.bounds = FlightBounds(parameters, workspace);
+  limits.bound_slack = kBoundSlack;
+  limits.workspace_slack = distances.tracking_margin;
+  limits.pair_horizontal = distances.pair_distance + 2.0 * distances.tracking_error;
+  limits.pair_vertical = distances.pair_distance_vertical + 2.0 * distances.tracking_error;
+  limits.pair_margin = distances.tracking_margin - 2.0 * distances.tracking_error;
+  return limits;
+}
+
+bool areApart(const KinematicState& x, const KinematicState& y) {
+  return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
+}
+
+}  // namespace
+
 void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length, double speed) {
   reference = MovingTarget();
   reference.path = ReferencePath(path);
@@ -19,60 +52,181 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
 }
 
 void UavRecord::reset() {
-  plans = 0;
+  motions.clear();
+  planned = false;
+  deviation.setZero();
   reference_pending = true;
   on_reference = false;
   active.count = 0;
 }
 
-void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, double tracking_time) {
-  if (!isFlyingPlanAt(measurement.stamp)) {
+void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
+  motions.compare(measurement.stamp, measurement.p, kLostMargins * parameters.limits.tracking_margin);
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  const Vector3 measured = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());
+  deviation += kDeviationGain * (measured - deviation);
+  const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
+  if (!expected || (rests && measured.norm() > kMoved)) {
     start = predictFromMeasurement(measurement, epoch);
+    if (expected || motions.empty()) {
+      motions.clear();
+      CommittedMotion rest;
+      rest.assignRest(measurement.stamp, measurement.p);
+      motions.commit(rest);
+      planned = false;
+    }
     return;
   }
-  const bool flies_previous = plans > 1 && measurement.stamp < committed.epoch;
-  start = predictFromPlan(committed, flies_previous ? previous : committed, measurement, epoch, tracking_time);
+  start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
 }
 
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
-    : parameters_(parameters), sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
+    : parameters_(parameters),
+      limits_(makeCheckLimits(parameters, workspace ? &*workspace : nullptr)),
+      sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
-  problem_.bounds = FlightBounds(parameters, workspace ? &*workspace : nullptr);
+  problem_.bounds = limits_.bounds;
   problem_.bodies.reserve(max_bodies);
+  check_.obstacles.reserve(max_bodies);
+  check_.uavs.reserve(2 * max_bodies);
 }
 
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
-  poseProblem(uav, epoch, record, surroundings);
-  if (record.plans > 0) {
-    shiftPlan(record.committed, record.start, epoch, problem_.dt, plan_);
-  } else {
-    coastingPlan(record.start, epoch, problem_.dt, plan_);
+  surroundings.collect(uav, check_);
+  const KinematicState committed = record.motions.flown().at(epoch);
+  committed_ = committed.p;
+  has_proposal_ = false;
+
+  CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
+  // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on from.
+  if (!verdict.accepted() && record.planned && areApart(record.start, committed)) {
+    record.start = committed;
+    verdict = propose(uav, epoch, record, surroundings, report);
   }
+  if (verdict.accepted()) {
+    record.motions.commit(motion_);
+    record.planned = true;
+    report.reason = Reason::kNone;
+  } else {
+    report.reason = fallBack(epoch, record);
+  }
+  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
+  fillReport(epoch, record, report);
+  report.solve_time = stopwatch.elapsed();
+}
+
+CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                                 UavReport& report) {
+  poseProblem(uav, epoch, record, surroundings);
+  if (record.planned) {
+    shiftPlan(record.motions.flown(), record.start, epoch, problem_.dt, shifted_);
+  } else {
+    coastingPlan(record.start, epoch, problem_.dt, shifted_);
+  }
+  plan_ = shifted_;
   guessActiveRows(epoch, record);
   const SqpResult result = sqp_.solve(problem_, plan_, record.active);
-  if (result.solved) {
-    std::swap(record.previous, record.committed);
-    record.committed = plan_;
-    record.plans = std::min(record.plans + 1, 2);
-    surroundings.setPlan(uav, record.committed, epoch);
+  report.sqp_iterations += result.iterations;
+  report.qp_iterations += result.qp_iterations;
+  report.solved = result.solved;
+  if (!result.solved) plan_ = shifted_;
+
+  const CheckVerdict verdict = judge(uav, surroundings, plan_);
+  if (verdict.accepted()) return verdict;
+  report.refusal = verdict.reason;
+  if (verdict.reason != CheckReason::kNotFinite && verdict.reason != CheckReason::kDiscontinuous) {
+    has_proposal_ = true;
+    proposed_ = motion_;
+    proposal_conflict_ = verdict.reason == CheckReason::kRestingPlace ? epoch + verdict.time : epoch;
+  }
+  step_ = plan_;
+  for (const double length : kStepsBack) {
+    for (std::size_t k = 0; k < kHorizon; ++k) {
+      step_.jerks[k] = shifted_.jerks[k] + length * (plan_.jerks[k] - shifted_.jerks[k]);
+    }
+    rollOut(record.start, step_);
+    if (judge(uav, surroundings, step_).accepted()) return {};
+  }
+  return verdict;
+}
+
+CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan) {
+  if (!parameters_.limits.plan_check) {
+    StopManoeuvre stop;
+    planStop(plan.knots.back(), plan.dt, limits_.bounds, stop);
+    motion_.assign(plan, stop);
+    return {};
+  }
+  CheckVerdict verdict = checkPlan(plan, plan.knots.front(), committed_, limits_, check_, motion_);
+  if (verdict.accepted() && !surroundings.isWithinArea(uav, motion_)) verdict.reason = CheckReason::kOutOfArea;
+  return verdict;
+}
+
+Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
+  CheckLimits limits = limits_;
+  limits.demand_margin = false;
+  record.motions.goOn(epoch);
+  kept_ = record.motions.newest();
+  const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits, check_);
+  if (kept.accepted()) return Reason::kPlanRefused;
+
+  StopManoeuvre stop;
+  planStop(record.start, problem_.dt, relieveBounds(limits_.bounds, record.start, kBoundSlack), stop);
+  stop_.assignStop(epoch, stop);
+  if (stop.within_bounds && checkClearance(stop_, committed_, limits, check_).accepted()) {
+    record.motions.commit(stop_);
+    record.planned = true;
+    return Reason::kBraking;
   }
 
-  report.planned = record.plans > 0;
-  report.sqp_iterations = result.iterations;
-  report.qp_iterations = result.qp_iterations;
-  report.max_slack = result.max_violation;
-  report.lag = problem_.targets[0].arc_length - record.progress;
-  const PredictedClearance clearance = predictedClearance(problem_, plan_);
+  // Nothing is safe for good. What comes too close least flies; among those that do not, the one whose place of rest is
+  // safe longest: a later cycle has that much time to find better.
+  const double stop_shortfall = worstShortfall(stop_, epoch, limits_, check_);
+  const double kept_shortfall = worstShortfall(kept_, epoch, limits_, check_);
+  const double conflict = kept.reason == CheckReason::kRestingPlace ? kept_.epoch() + kept.time : epoch;
+  double least = kept_shortfall;
+  const CommittedMotion* best = &kept_;
+  if (stop_shortfall < least - kSameShortfall) {
+    least = stop_shortfall;
+    best = &stop_;
+  }
+  if (has_proposal_) {
+    const double shortfall = worstShortfall(proposed_, epoch, limits_, check_);
+    const bool lasts_longer = best == &kept_ && proposal_conflict_ > conflict;
+    if (shortfall < least - kSameShortfall || (shortfall < least + kSameShortfall && lasts_longer)) {
+      least = shortfall;
+      best = &proposed_;
+    }
+  }
+  if (best != &kept_) {
+    record.motions.commit(*best);
+    record.planned = true;
+  }
+  return least > 0.0 ? Reason::kNoSafePlan : Reason::kUnsafeRest;
+}
+
+void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& report) {
+  // As flown: the plan in work may not be it.
+  for (std::size_t k = 0; k <= kHorizon; ++k) {
+    step_.knots[k] = record.motions.newest().at(epoch + static_cast<double>(k) * problem_.dt);
+  }
+  step_.dt = problem_.dt;
+  const PredictedClearance clearance = predictedClearance(problem_, step_);
   report.obstacle_clearance = clearance.obstacle;
   report.pair_distance = clearance.pair;
-  report.reason = Reason::kNone;
-  if (result.max_violation > parameters_.limits.tracking_margin) report.reason = Reason::kConstraintsViolated;
-  if (!result.solved) report.reason = Reason::kSolverFailed;
-  report.state = report.reason == Reason::kNone ? UavState::kTracking : UavState::kFallback;
-  report.solve_time = stopwatch.elapsed();
+  report.max_slack = planViolation(problem_, step_).largest;
+  report.planned = record.planned;
+  report.deviation = record.deviation.norm();
+  report.lag = problem_.targets[0].arc_length - record.progress;
+  if (report.reason == Reason::kNone && !report.solved) report.reason = Reason::kSolverFailed;
+  if (report.reason == Reason::kNone && record.deviation.norm() > parameters_.limits.tracking_margin) {
+    report.reason = Reason::kStraying;
+  }
+  const bool on_new_plan = report.reason == Reason::kNone || report.reason == Reason::kStraying;
+  report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
 }
 
 void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
@@ -87,9 +241,8 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
   const ReferencePath& path = record.reference.path;
-  const PathPoint foot = record.on_reference
-                             ? path.nearest(record.start.p, record.progress)
-                             : path.nearest(record.start.p, 0.0, std::numeric_limits<double>::infinity());
+  const PathPoint foot =
+      record.on_reference ? path.nearest(record.start.p, record.progress) : path.nearest(record.start.p, 0.0, kInfinity);
   record.progress = foot.arc_length;
   record.on_reference = true;
   problem_.epoch = epoch;

@@ -36,7 +36,7 @@ void expectStrictlyIncreasing(const SetpointTrajectory& sampled) {
 TEST(Setpoints, CoverTheWholePlan) {
   const Trajectory plan = curvedPlan(1.7e9);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.05, kWhole, 0.7, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kWhole, 0.7, sampled);
   EXPECT_EQ(sampled.epoch, plan.epoch);
   ASSERT_EQ(sampled.points.size(), 121U);
   expectStrictlyIncreasing(sampled);
@@ -54,7 +54,7 @@ TEST(Setpoints, CoverTheWholePlan) {
 TEST(Setpoints, EndAtTheHorizon) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.1, 0.45, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.1, 0.45, 0.0, sampled);
   ASSERT_EQ(sampled.points.size(), 6U);
   EXPECT_DOUBLE_EQ(sampled.points[4].time_from_start, 0.4);
   EXPECT_DOUBLE_EQ(sampled.points[5].time_from_start, 0.45);
@@ -63,7 +63,7 @@ TEST(Setpoints, EndAtTheHorizon) {
 TEST(Setpoints, NeverReachBeyondThePlan) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.5, 100.0, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.5, 100.0, 0.0, sampled);
   EXPECT_NEAR(sampled.points.back().time_from_start, plan.duration(), 1e-12);
 }
 
@@ -71,7 +71,7 @@ TEST(Setpoints, DoNotRepeatTheLastPointWhenTheStepRounds) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
   for (const double dt : {0.01, 0.02, 0.03, 0.05, 0.06, 0.07, 0.1, 0.15, 0.3, 0.7, 6.0, 7.0}) {
-    samplePlan(plan, dt, kWhole, 0.0, sampled);
+    sampleMotion(plan, plan.epoch, dt, kWhole, 0.0, sampled);
     expectStrictlyIncreasing(sampled);
     EXPECT_NEAR(sampled.points.back().time_from_start, plan.duration(), 1e-12) << "dt " << dt;
   }
@@ -80,10 +80,10 @@ TEST(Setpoints, DoNotRepeatTheLastPointWhenTheStepRounds) {
 TEST(Setpoints, ReuseTheirMemory) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.05, kWhole, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kWhole, 0.0, sampled);
   const Setpoint* const memory = sampled.points.data();
-  samplePlan(plan, 0.05, kWhole, 0.0, sampled);
-  samplePlan(plan, 0.1, kWhole, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kWhole, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.1, kWhole, 0.0, sampled);
   EXPECT_EQ(sampled.points.data(), memory);
 }
 

@@ -25,7 +25,8 @@ Trajectory somePlan() {
 
 SetpointTrajectory someSetpoints() {
   SetpointTrajectory setpoints;
-  samplePlan(somePlan(), 0.05, 2.0, 0.7, setpoints);
+  const Trajectory plan = somePlan();
+  sampleMotion(plan, plan.epoch, 0.05, 2.0, 0.7, setpoints);
   return setpoints;
 }
 

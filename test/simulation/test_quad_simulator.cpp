@@ -49,7 +49,7 @@ Trajectory smoothPlan(double epoch, const Vector3& start) {
 
 SetpointTrajectory sampled(const Trajectory& plan) {
   SetpointTrajectory points;
-  samplePlan(plan, kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, points);
+  sampleMotion(plan, plan.epoch, kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, points);
   return points;
 }
 

@@ -38,7 +38,7 @@ const Vector3 kStart(9.0, 9.0, 9.0);
 TEST(SetpointTrack, ASampledPlanIsFlownExactly) {
   const Trajectory plan = curvedPlan(100.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.05, kInfinity, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kInfinity, 0.0, sampled);
   SetpointTrack track(kStart);
   ASSERT_TRUE(track.receive(sampled, 99.0));
   for (double t = 100.003; t < 100.0 + plan.duration(); t += 0.017) {
@@ -55,7 +55,7 @@ TEST(SetpointTrack, ASampledPlanIsFlownExactly) {
 TEST(SetpointTrack, BetweenCoarseSamplesTheMotionStaysSmoothAndNear) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.4, kInfinity, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.4, kInfinity, 0.0, sampled);
   SetpointTrack track(kStart);
   ASSERT_TRUE(track.receive(sampled, 0.0));
   MotionSetpoint last = track.at(0.0);
@@ -95,7 +95,7 @@ TEST(SetpointTrack, ANewTrajectoryReplacesTheWaitingOnesThatBeginLater) {
 TEST(SetpointTrack, OneThatArrivesAfterItsEpochIsJoinedUnderWay) {
   const Trajectory plan = curvedPlan(0.0);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.05, kInfinity, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kInfinity, 0.0, sampled);
   SetpointTrack track(kStart);
   ASSERT_TRUE(track.receive(sampled, 1.0));
   EXPECT_LT((track.at(1.0).p - plan.at(1.0).p).norm(), 1e-9);
@@ -105,7 +105,7 @@ TEST(SetpointTrack, LargeTimesAreNoTrouble) {
   const double now = 1.7e9 + 0.123456;  // ROS time counts from 1970
   const Trajectory plan = curvedPlan(now);
   SetpointTrajectory sampled;
-  samplePlan(plan, 0.05, kInfinity, 0.0, sampled);
+  sampleMotion(plan, plan.epoch, 0.05, kInfinity, 0.0, sampled);
   for (Setpoint& point : sampled.points) point.time_from_start += 0.1;
   SetpointTrack track(kStart);
   ASSERT_TRUE(track.receive(sampled, now));

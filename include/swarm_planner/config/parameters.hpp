@@ -37,7 +37,10 @@ struct LimitParameters {
   double pair_distance = 2.0;           ///< R_CA of (14), horizontal [m]
   double pair_distance_vertical = 2.0;  ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
   double tracking_margin = 0.2;         ///< kept on top of both distances by the planner [m]; unset: by rule
+  double tracking_error = 0.05;         ///< how far a vehicle may stray from its motion, part of tracking_margin [m];
+                                        ///< unset: by rule
   bool avoidance = true;                ///< false only for negative controls: no obstacle or pair constraint
+  bool plan_check = true;               ///< false only for negative controls: plans fly unchecked
 };
 
 /// Sampling of the horizon and the cycle.
@@ -80,6 +83,8 @@ struct InputParameters {
   double odometry_timeout = 0.5;  ///< older odometry is not used [s]
   double track_timeout = 1.0;     ///< an obstacle track is predicted for at most so long [s]
   double tracking_time = 0.5;     ///< time constant with which a vehicle's tracking deviation decays [s]
+  double odometry_noise = 0.15;   ///< deviations up to this may be noise alone [m]
+  int lost_setpoints = 2;         ///< so many trajectories in a row may fail to reach a vehicle
   bool autostart = true;          ///< start as soon as every UAV's odometry has arrived
 };
 

@@ -12,8 +12,8 @@ class CyclePlanner {
 
   /// New plans that start at `epoch` >= snapshot.now. The report is valid until the next call.
   virtual const CycleReport& plan(const Snapshot& snapshot, double epoch) = 0;
-  /// The newest plan of a UAV; meaningful where the report says `planned`.
-  virtual const Trajectory& committed(std::size_t uav) const = 0;
+  /// What a UAV is to fly, its stop included; meaningful where the report says `planned`.
+  virtual const CommittedMotion& committed(std::size_t uav) const = 0;
 };
 
 /// Problem 2: one UAV after the other.
@@ -22,7 +22,7 @@ class IterativePlanner : public CyclePlanner {
   explicit IterativePlanner(const Mission& mission) : planner_(mission) {}
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override { return planner_.plan(snapshot, epoch); }
-  const Trajectory& committed(std::size_t uav) const override { return planner_.committed(uav); }
+  const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
 
  private:
   SwarmPlanner planner_;

@@ -25,6 +25,7 @@ struct RunResult {
   long long kkt_nonzeros = 0;                    ///< see kkt_nonzeros.hpp
   RunSummary flown;                              ///< what the simulated vehicles did
   std::size_t rejected_plans = 0;                ///< plans that the check refused
+  std::map<std::string, std::size_t> refusals;   ///< the check's reason in words -> plans
   std::map<std::string, std::size_t> fallbacks;  ///< reason in words -> UAVs and cycles
   std::size_t deadline_misses = 0;               ///< cycles that took longer than cycle_period
 };

@@ -1,9 +1,11 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include "swarm_planner/model/trajectory.hpp"
+#include "swarm_planner/model/kinematics.hpp"
 
 namespace swarm_planner {
 
@@ -22,8 +24,21 @@ struct SetpointTrajectory {
   std::vector<Setpoint> points;
 };
 
-/// Samples a plan every `dt` [s] for `horizon` [s] (infinity: the whole plan), first point at the epoch, last one
-/// at the horizon's end. Reuses the memory of `out`.
-void samplePlan(const Trajectory& plan, double dt, double horizon, double yaw, SetpointTrajectory& out);
+/// Samples a motion every `dt` [s] for `horizon` [s] (infinity: all of it), first point at its `epoch` [s], last one at
+/// the horizon's end. motion.after(elapsed) is its KinematicState, motion.duration() its length [s]. Reuses the memory
+/// of `out`.
+template <class Motion>
+void sampleMotion(const Motion& motion, double epoch, double dt, double horizon, double yaw, SetpointTrajectory& out) {
+  constexpr double kShortestInterval = 1e-6;  // of dt: a last interval shorter than this is rounding
+  const double end = std::max(0.0, std::min(horizon, motion.duration()));
+  const auto intervals = static_cast<std::size_t>(std::max(0.0, std::ceil(end / dt - kShortestInterval)));
+  out.epoch = epoch;
+  out.points.resize(intervals + 1);
+  for (std::size_t i = 0; i <= intervals; ++i) {
+    const double time = i < intervals ? static_cast<double>(i) * dt : end;
+    const KinematicState x = motion.after(time);
+    out.points[i] = {time, x.p, x.v, x.a, yaw};
+  }
+}
 
 }  // namespace swarm_planner

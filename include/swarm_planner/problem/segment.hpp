@@ -40,14 +40,23 @@ struct PredictedMotion {
   const Vector3& point(int k, int i) const { return points[static_cast<std::size_t>(3 * k + i)]; }
 };
 
-/// Predicts a plan on the stages of a horizon that starts at `epoch` with step `dt` [s]. Where the plan's knots
-/// coincide with the stages this is exact; elsewhere a cubic Hermite fit through the stages, off by at most
-/// jerk change * dt^3 / 192.
-void predict(const Trajectory& plan, double epoch, double dt, PredictedMotion& motion);
-
-/// The same for a UAV that gets no plan after this one: it stops where the plan ends and rests there. In the stage
-/// in which it stops the fit brakes: off by at most 4/27 of the way that the last velocity makes in dt.
-void predictToRest(const Trajectory& plan, double epoch, double dt, PredictedMotion& motion);
+/// Predicts a motion on the stages of a horizon that starts at `epoch` with step `dt` [s]; motion.at(t) is its
+/// KinematicState at time t. Where the motion's knots coincide with the stages this is exact; elsewhere a cubic Hermite
+/// fit through the stages, off by at most jerk change * dt^3 / 192.
+template <class Motion>
+void predict(const Motion& motion, double epoch, double dt, PredictedMotion& predicted) {
+  predicted.box = Box();
+  KinematicState begin = motion.at(epoch);
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    const KinematicState end = motion.at(epoch + static_cast<double>(k + 1) * dt);
+    predicted.points[3 * k] = begin.p;
+    predicted.points[3 * k + 1] = begin.p + dt / 3.0 * begin.v;
+    predicted.points[3 * k + 2] = end.p - dt / 3.0 * end.v;
+    begin = end;
+  }
+  predicted.points[3 * kHorizon] = begin.p;
+  for (const Vector3& point : predicted.points) predicted.box.include(point);
+}
 
 /// Prediction of a UAV that has no plan: it rests at `position`.
 void predictResting(const Vector3& position, PredictedMotion& motion);

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "swarm_planner/model/trajectory.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/swarm/committed_motion.hpp"
 
 namespace swarm_planner {
 
@@ -31,7 +31,7 @@ struct UavDrawing {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   std::vector<Vector3> trail;
   bool planned = false;  ///< `plan` holds a plan
-  Trajectory plan;
+  CommittedMotion plan;
   bool targeted = false;  ///< `reference` and `target` are known
   MovingTarget reference;
   TargetState target;

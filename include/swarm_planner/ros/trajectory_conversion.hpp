@@ -8,7 +8,7 @@
 #include "swarm_planner/SwarmPlan.h"
 #include "swarm_planner/UavPlan.h"
 #include "swarm_planner/model/setpoints.hpp"
-#include "swarm_planner/model/trajectory.hpp"
+#include "swarm_planner/swarm/committed_motion.hpp"
 
 namespace swarm_planner {
 
@@ -21,11 +21,7 @@ void toMessage(const SetpointTrajectory& trajectory, const std::string& frame,
 /// reason if a point has no transform.
 SetpointTrajectory toSetpoints(const trajectory_msgs::MultiDOFJointTrajectory& message);
 
-/// The exact plan of one UAV. Reuses the memory of `message`.
-void toMessage(const Trajectory& plan, const std::string& uav, UavPlan& message);
-
-/// The way back, knots rolled out. Throws std::invalid_argument if the message has not kHorizon segments or its dt is
-/// not positive.
-Trajectory toTrajectory(const UavPlan& message);
+/// The exact motion that one UAV is to fly. Reuses the memory of `message`.
+void toMessage(const CommittedMotion& motion, const std::string& uav, UavPlan& message);
 
 }  // namespace swarm_planner

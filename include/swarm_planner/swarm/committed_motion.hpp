@@ -49,6 +49,8 @@ class CommittedMotion {
     const Vector3* first = &points_[3 * static_cast<std::size_t>(k)];
     return {first[0], first[1], first[2], first[3]};
   }
+  /// The constant jerk of piece k, zero of the rest [m/s^3].
+  Vector3 jerk(int k) const;
   /// The state `elapsed` seconds after the epoch; before it the first piece is followed back.
   KinematicState after(double elapsed) const;
   /// The state at absolute time `t` [s].

@@ -14,7 +14,9 @@ namespace swarm_planner {
 // The rule for whatever is demanded with a margin: distances, workspace and bounds alike.
 //
 //   Demanded is `least` + `margin`. Where the start itself has less, what the start has is demanded all along, but
-//   never less than `least`: a margin that is used up need not be regained, and must not shrink further.
+//   never less than `least`: a margin that is used up need not be regained, and must not shrink further. Where the
+//   motion committed before has less than `least` at the start's time (UAVs may stand closer than that before the
+//   first plan, an obstacle may appear beside one), what it has takes the place of `least`.
 //
 // Why it is made so. Let a motion, from its own start on, be followed to within e, and let `least` be the hard distance
 // plus e (twice e for a pair). Then
@@ -46,6 +48,7 @@ struct CheckLimits {
   double pair_horizontal = 0.0;  ///< least semi-axes of the pair ellipsoid (14) [m]
   double pair_vertical = 0.0;
   double pair_margin = 0.0;  ///< on top of both [m]
+  bool demand_margin = true;  ///< false: `least` is enough, as it is for a motion that was accepted before
   double look_ahead = 20.0;  ///< how long the resting place must stay clear of obstacles [s]
 };
 
@@ -60,11 +63,22 @@ struct PredictedObstacle {
   double valid_until = std::numeric_limits<double>::infinity();  ///< not looked at later [s]
 };
 
+/// A motion that another UAV may be flying.
+struct OtherMotion {
+  const CommittedMotion* motion = nullptr;
+  double valid_until = std::numeric_limits<double>::infinity();  ///< not flown any more then [s]
+};
+
 /// All that a motion has to keep clear of. Every motion that a UAV may be flying, as far as the station knows, is an
 /// entry of its own.
 struct CheckSurroundings {
   std::vector<PredictedObstacle> obstacles;
-  std::vector<const CommittedMotion*> uavs;
+  std::vector<OtherMotion> uavs;
+
+  void clear() {
+    obstacles.clear();
+    uavs.clear();
+  }
 };
 
 /// Why a plan is refused.
@@ -79,7 +93,8 @@ enum class CheckReason {
   kWorkspace,
   kObstacle,
   kUav,
-  kRestingPlace  ///< an obstacle comes to where the motion rests
+  kRestingPlace,  ///< an obstacle comes to where the motion rests
+  kOutOfArea      ///< farther than UAVs that plan at the same time were told
 };
 /// In words, for operators. A string literal.
 const char* checkReasonText(CheckReason reason);
@@ -96,13 +111,14 @@ struct CheckVerdict {
 };
 
 /// Checks `plan`, which is to start in `start`, and leaves its motion with the stop in `motion` (whether accepted or
-/// not, unless it is not finite or discontinuous). Takes no heap.
-CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, const CheckLimits& limits,
-                       const CheckSurroundings& surroundings, CommittedMotion& motion);
+/// not, unless it is not finite or discontinuous). `committed`: where the motion committed before is at the plan's
+/// epoch [m]. Takes no heap.
+CheckVerdict checkPlan(const Trajectory& plan, const KinematicState& start, const Vector3& committed,
+                       const CheckLimits& limits, const CheckSurroundings& surroundings, CommittedMotion& motion);
 
 /// Whether a motion whose bounds have been seen to, such as a stop from now on, keeps to the workspace and clear of
-/// everything.
-CheckVerdict checkClearance(const CommittedMotion& motion, const CheckLimits& limits,
+/// everything. `committed` as for checkPlan.
+CheckVerdict checkClearance(const CommittedMotion& motion, const Vector3& committed, const CheckLimits& limits,
                             const CheckSurroundings& surroundings);
 
 }  // namespace swarm_planner

@@ -9,16 +9,17 @@
 
 namespace swarm_planner {
 
-/// Sorts the UAVs of Problem 2 into rounds. Every UAV comes in a later round than all neighbours with a lower index, so
-/// that solving a round's UAVs in any order or at once gives what solving all one by one by index gives.
+/// Sorts the UAVs of Problem 2 into rounds. UAVs take turns by index from a first one on, cyclically. Every UAV comes in
+/// a later round than all neighbours whose turn is earlier, so that solving a round's UAVs in any order or at once gives
+/// what solving all one by one gives.
 class SolveOrder {
  public:
   /// Memory for `uavs` UAVs.
   void reserve(std::size_t uavs);
-  void build(const NeighbourLists& neighbours);
+  void build(const NeighbourLists& neighbours, std::size_t first);
 
   std::size_t rounds() const { return round_begin_.size() - 1; }
-  /// UAVs of round r: uav(roundBegin(r)) .. uav(roundBegin(r + 1) - 1), ascending.
+  /// UAVs of round r: uav(roundBegin(r)) .. uav(roundBegin(r + 1) - 1), by turn.
   std::size_t roundBegin(std::size_t round) const { return round_begin_[round]; }
   std::size_t uav(std::size_t position) const { return order_[position]; }
 

@@ -7,26 +7,29 @@
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/swarm/neighbour_lists.hpp"
+#include "swarm_planner/swarm/plan_check.hpp"
 
 namespace swarm_planner {
 
 /// Everything that a UAV may have to keep clear of in one cycle: obstacles where they will be at the epoch and the
-/// newest plan of every UAV.
+/// motions that every UAV may be flying.
 class Surroundings {
  public:
   /// Up to `max_obstacles` obstacles before memory has to grow.
   Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles);
 
-  /// Predicts the tracks to `epoch`. A track older than track_timeout at `now` is left out.
-  void setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch);
+  /// The cycle's epoch [s]; obstacles and motions are set after it.
+  void setEpoch(double epoch) { epoch_ = epoch; }
+  /// Predicts the tracks to the epoch. A track older than track_timeout at `now` is left out.
+  void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
   /// Nothing is known of the UAV; others need not keep clear of it.
   void setUnknown(std::size_t uav);
-  /// The UAV flies `plan`; the stages are those of a horizon that starts at `epoch`.
-  void setPlan(std::size_t uav, const Trajectory& plan, double epoch);
-  /// The same for a UAV that cannot be planned for: it rests where `plan` ends.
-  void setLastPlan(std::size_t uav, const Trajectory& plan, double epoch);
-  /// The UAV rests at `position`.
-  void setResting(std::size_t uav, const Vector3& position);
+  /// The UAV flies `newest`, unless its setpoints were lost: then `older` (null: no other), which others keep clear of
+  /// as long as lost_setpoints trajectories in a row may be missing. Both have to outlive the cycle.
+  void setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
+
+  /// The same in the course of the cycle, for a UAV that has its new motion; within the area that others were told of.
+  void replaceMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
 
   /// The UAV will plan anew from `start`: it may go wherever its speed takes it within the horizon.
   void setPlanning(std::size_t uav, const KinematicState& start);
@@ -34,10 +37,22 @@ class Surroundings {
   void findNeighbours();
   const NeighbourLists& neighbours() const { return neighbours_; }
 
+  /// Whether others were told of the place: only there may a motion of the UAV go that is new in this cycle.
+  bool isWithinArea(std::size_t uav, const CommittedMotion& motion) const;
+
   /// Fills problem.bodies with what `uav` can reach from problem.start within the horizon.
   void collect(std::size_t uav, UavProblem& problem) const;
+  /// Lists all that a motion of `uav` has to keep clear of, for the check.
+  void collect(std::size_t uav, CheckSurroundings& surroundings) const;
 
  private:
+  /// What a UAV may be flying.
+  struct Motions {
+    const CommittedMotion* newest = nullptr;  ///< null: unknown
+    const CommittedMotion* older = nullptr;
+    Box box;  ///< of both [m]
+  };
+
   Box reach(const KinematicState& start) const;
   void collectObstacles(const Box& reach, UavProblem& problem) const;
   void collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const;
@@ -45,10 +60,12 @@ class Surroundings {
   const Parameters& parameters_;
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
+  double epoch_ = 0.0;                     ///< of the cycle [s]
   std::vector<Superellipsoid> obstacles_;  ///< at the epoch
-  std::vector<PredictedMotion> motions_;
-  std::vector<char> known_;  ///< whether motions_[uav] holds
-  std::vector<Box> areas_;   ///< where each UAV may be within the horizon, grown by half the pair distance
+  std::vector<PredictedObstacle> checked_obstacles_;
+  std::vector<Motions> motions_;
+  std::vector<PredictedMotion> predictions_;  ///< of the newest motions
+  std::vector<Box> areas_;                    ///< where each UAV may be, grown by half the pair distance [m]
   NeighbourLists neighbours_;
 };
 

@@ -2,14 +2,16 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "swarm_planner/model/trajectory.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/swarm/committed_motion.hpp"
 #include "swarm_planner/swarm/mission.hpp"
+#include "swarm_planner/swarm/plan_check.hpp"
 
 namespace swarm_planner {
 
@@ -47,9 +49,16 @@ enum class Reason : std::uint8_t {
   kOdometryStale,       ///< older than odometry_timeout
   kOdometryFromFuture,
   kOdometryNotFinite,    ///< NaN, infinite or of a size that no UAV is at
-  kConstraintsViolated,  ///< the newest plan needs slack
-  kSolverFailed,         ///< the QP had no answer; the committed plan goes on
+  kSolverFailed,         ///< the QP had no answer; the committed motion goes on
+  kPlanRefused,          ///< the check refused the plan; the committed motion goes on
+  kBraking,              ///< the committed motion is no longer safe either; brakes at once
+  kUnsafeRest,           ///< an obstacle will come to where the UAV comes to rest, whatever it plans
+  kNoSafePlan,           ///< the least violating motion flies
+  kOverrun,              ///< no time was left to plan; the committed motion goes on
+  kStraying,             ///< the UAV is farther from its motion than tracking_margin
 };
+/// Whether the operator has to look at once: safety cannot be assured any more.
+bool isAlarm(Reason reason);
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
 const char* stateText(UavState state);
@@ -58,11 +67,14 @@ const char* stateText(UavState state);
 struct UavReport {
   UavState state = UavState::kHolding;
   Reason reason = Reason::kWaitingForOdometry;
-  bool planned = false;     ///< a plan for this epoch stands and may be published
+  bool planned = false;     ///< a motion stands and may be published
   double solve_time = 0.0;  ///< [s] of wall clock
   int sqp_iterations = 0;
   int qp_iterations = 0;
-  double max_slack = 0.0;  ///< largest violation of a constraint by the plan [m]
+  bool solved = false;      ///< a QP had an answer
+  CheckReason refusal = CheckReason::kAccepted;  ///< of the solver's plan; the check may have passed a shorter step
+  double max_slack = 0.0;   ///< largest violation of a constraint by what flies [m, m/s, m/s^2]
+  double deviation = 0.0;   ///< of the UAV from what it was to fly, as measured [m]
   double obstacle_clearance =
       0.0;                     ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
   double pair_distance = 0.0;  ///< smallest predicted centre distance to another UAV [m]; +inf without
@@ -75,6 +87,7 @@ struct CycleReport {
   double epoch = 0.0;      ///< [s]
   double time_zero = 0.0;  ///< epoch of t = 0 of the run; valid if started
   bool started = false;
+  bool out_of_time = false;  ///< some UAVs were not planned for within the budget
   double cycle_time = 0.0;  ///< snapshot in, plans out [s] of wall clock
   std::vector<UavReport> uavs;
 };
@@ -91,12 +104,15 @@ class SwarmPlanner {
   std::size_t uavCount() const;
   const std::string& uavName(std::size_t uav) const;
 
-  /// One cycle: new plans that start at `epoch` >= snapshot.now, given in the snapshot's time base.
-  const CycleReport& plan(const Snapshot& snapshot, double epoch);
+  /// One cycle: new plans that start at `epoch` >= snapshot.now, given in the snapshot's time base. UAVs whose turn has
+  /// not come after `budget` seconds of wall clock go on with their committed motions, and are the first in the next
+  /// cycle.
+  const CycleReport& plan(const Snapshot& snapshot, double epoch,
+                          double budget = std::numeric_limits<double>::infinity());
   const CycleReport& report() const;
 
-  /// The newest plan of a UAV; meaningful where report().uavs[uav].planned.
-  const Trajectory& committed(std::size_t uav) const;
+  /// What a UAV is to fly, its stop included; meaningful where report().uavs[uav].planned.
+  const CommittedMotion& committed(std::size_t uav) const;
   /// Where the UAV's target is at time `t`; before t = 0 of the run at its start.
   TargetState target(std::size_t uav, double t) const;
   const MovingTarget& reference(std::size_t uav) const;

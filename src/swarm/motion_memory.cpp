@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/motion_memory.hpp"
+
+#include <algorithm>
+
+namespace swarm_planner {
+
+void MotionMemory::clear() {
+  count_ = 0;
+  on_older_ = false;
+  path_.clear();
+}
+
+std::optional<KinematicState> MotionMemory::expectedAt(double t) const {
+  if (count_ == 0) return {};
+  if (t >= flown().epoch()) return flown().at(t);
+  if (path_.covers(t)) return path_.at(t);
+  return {};
+}
+
+void MotionMemory::compare(double stamp, const Vector3& p, double difference) {
+  if (count_ < 2 || stamp <= newest().epoch()) return;
+  const double from_newest = (p - newest().at(stamp).p).norm();
+  const double from_older = (p - older()->at(stamp).p).norm();
+  on_older_ = from_older + difference < from_newest;
+}
+
+void MotionMemory::commit(const CommittedMotion& motion) {
+  if (count_ > 0) {
+    path_.append(flown(), motion.epoch());
+    if (!on_older_) newest_ = 1 - newest_;
+    count_ = 2;
+  } else {
+    count_ = 1;
+  }
+  motions_[newest_] = motion;
+  on_older_ = false;
+}
+
+void MotionMemory::goOn(double epoch) {
+  if (on_older_) {
+    newest_ = 1 - newest_;
+    count_ = 1;
+    on_older_ = false;
+  }
+  CommittedMotion& motion = motions_[newest_];
+  const double elapsed = (epoch - motion.epoch() + CommittedMotion::kTimeTolerance) / motion.dt();
+  const int ended = static_cast<int>(std::min(std::max(elapsed, 0.0), static_cast<double>(motion.pieces())));
+  if (ended == 0) return;
+  path_.append(motion, motion.epoch() + ended * motion.dt());
+  motion.dropPieces(ended);
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/shortfall.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kStep = 0.05;  // [s]
+
+double obstacleShortfall(const Vector3& p, double t, const PredictedObstacle& obstacle) {
+  if (t > obstacle.valid_until) return 0.0;
+  const double age = t - obstacle.stamp;
+  const double least = obstacle.least_distance + obstacle.growth_rate * age;
+  const Superellipsoid& body = *obstacle.body;
+  const Vector3 relative = p - age * body.velocity() - body.center();
+  if (((relative.cwiseAbs() - body.halfExtents()).array() > least).any()) return 0.0;
+  return least - body.signedDistance(body.center() + relative);
+}
+
+double pairShortfall(const Vector3& p, double t, const OtherMotion& other, const CheckLimits& limits) {
+  if (t > other.valid_until) return 0.0;
+  const Vector3 d = p - other.motion->at(t).p;
+  const Vector3 scaled(d.x() / limits.pair_horizontal, d.y() / limits.pair_horizontal, d.z() / limits.pair_vertical);
+  return (1.0 - scaled.norm()) * std::min(limits.pair_horizontal, limits.pair_vertical);
+}
+
+}  // namespace
+
+double worstShortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
+                      const CheckSurroundings& surroundings) {
+  const double end = std::max(from, motion.epoch() + motion.duration());
+  const auto steps = static_cast<int>(std::ceil((end - from) / kStep));
+  double worst = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    const double t = std::min(from + i * kStep, end);
+    const Vector3 p = motion.at(t).p;
+    for (const PredictedObstacle& obstacle : surroundings.obstacles) {
+      worst = std::max(worst, obstacleShortfall(p, t, obstacle));
+    }
+    for (const OtherMotion& other : surroundings.uavs) worst = std::max(worst, pairShortfall(p, t, other, limits));
+  }
+  return worst;
+}
+
+}  // namespace swarm_planner
