@@ -14,8 +14,8 @@ namespace {
 /// A plan has to last until later ones have replaced it, so a cycle may take this many stages at most.
 constexpr double kMostStagesPerCycle = 5.0;
 
-/// What of tracking_margin tracking_error is unless it is given; two UAVs may stray towards each other.
-constexpr double kErrorShare = 0.25;
+/// What of the margins tracking_error is unless it is given.
+constexpr double kErrorShare = 0.5;
 
 /// A computed number with as many decimals as a reader wants.
 double forMessage(double number) { return std::round(1e4 * number) / 1e4; }
@@ -62,7 +62,10 @@ class Resolution {
     if (!isSet("tracking_margin")) {
       limits.tracking_margin = std::clamp(0.1 * std::min(2.0 * limits.uav_radius, limits.pair_distance), 0.02, 0.2);
     }
-    if (!isSet("tracking_error")) limits.tracking_error = kErrorShare * limits.tracking_margin;
+    if (!isSet("pair_margin")) {
+      limits.pair_margin = std::max(limits.tracking_margin, std::min(0.1 * limits.pair_distance, 0.2));
+    }
+    if (!isSet("tracking_error")) limits.tracking_error = kErrorShare * std::min(limits.tracking_margin, limits.pair_margin);
   }
 
   /// Checks of one parameter against another. A parameter that already has a fault is not judged again.
@@ -85,12 +88,8 @@ class Resolution {
                 "expected at most " + formatNumber(kMostStagesPerCycle) + " sampling times of " +
                     formatNumber(p.time.sampling_time) + " s, found " + formatNumber(p.time.cycle_period) + " s");
     }
-    if (2.0 * p.limits.tracking_error > p.limits.tracking_margin) {
-      faultPair("tracking_error", "tracking_margin",
-                "expected at most half of tracking_margin " + formatNumber(p.limits.tracking_margin) +
-                    " m, since two UAVs may stray towards each other; found " + formatNumber(p.limits.tracking_error) +
-                    " m");
-    }
+    checkTrackingError("tracking_margin", p.limits.tracking_margin, "");
+    checkTrackingError("pair_margin", 0.5 * p.limits.pair_margin, "half of ");
     const double fastest_rate = std::max(p.simulation.odometry_rate, p.simulation.track_rate);
     if (p.simulation.step * fastest_rate > 1.0) {
       faultPair("step", "odometry_rate",
@@ -113,6 +112,15 @@ class Resolution {
   static double samplingTime(double time_for_distance) {
     constexpr double kPerSecond = 20.0, kRounding = 1e-9;
     return std::clamp(std::floor(time_for_distance * kPerSecond + kRounding) / kPerSecond, 0.15, 0.3);
+  }
+
+  /// A margin has room for the tracking errors that it is there for.
+  void checkTrackingError(const std::string& margin, double most, const std::string& share) {
+    const double error = parameters.limits.tracking_error;
+    if (error <= most) return;
+    faultPair("tracking_error", margin,
+              "expected at most " + share + margin + ", " + formatNumber(forMessage(most)) + " m, found " +
+                  formatNumber(error) + " m");
   }
 
   bool isSet(const std::string& name) const { return set_.count(name) > 0; }

@@ -99,11 +99,15 @@ void addLimits(TableBuilder& table) {
   table.withRule();
   table.number(
       "tracking_margin", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_margin; },
-      "what the planner keeps on top of uav_radius and pair_distance for tracking errors");
+      "what the planner keeps on top of uav_radius, and inside the workspace, for tracking errors");
+  table.withRule();
+  table.number(
+      "pair_margin", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.pair_margin; },
+      "what the planner keeps on top of the pair distances for the tracking errors of two UAVs");
   table.withRule();
   table.number(
       "tracking_error", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_error; },
-      "how far a vehicle may stray from what it is asked to fly; the part of tracking_margin that no plan may use up");
+      "how far a vehicle may stray from what it is asked to fly; that part of the margins (twice, of a pair's) no plan may use up");
   table.withRule();
   table.boolean(
       "avoidance", [](P& p) -> bool& { return p.limits.avoidance; },

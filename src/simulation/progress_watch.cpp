@@ -34,7 +34,7 @@ ProgressWatch::ProgressWatch(const Mission& mission)
       pair_distance_(mission.parameters.limits.pair_distance),
       pair_distance_vertical_(mission.parameters.limits.pair_distance_vertical) {
   if (!end_.all_at_goal) end_.tolerance = kDefaultTolerance;
-  parking_margin_ = end_.tolerance + mission.parameters.limits.tracking_margin;
+  parking_margin_ = end_.tolerance + mission.parameters.limits.pair_margin;
   for (const ScenarioUav& uav : mission.scenario.uavs) {
     MovingTarget reference;
     reference.path = ReferencePath(uav.reference);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "swarm_planner/swarm/clearance_proof.hpp"
 #include "swarm_planner/swarm/flight_envelope.hpp"
@@ -107,7 +108,8 @@ class ObstacleCheck {
         body_(*obstacle.body),
         growth_rate_(obstacle.growth_rate),
         center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
-        margin_(limits.demand_margin ? obstacle.margin : 0.0),
+        margin_(limits.margin_time > 0.0 ? obstacle.margin : 0.0),
+        margin_end_(limits.margin_time - kTimeTolerance),
         distance_(obstacle.least_distance + margin_ + growth_rate_ * (motion.epoch() - obstacle.stamp)),
         end_(std::min(motion.duration() + limits.look_ahead, obstacle.valid_until - motion.epoch())),
         proof_(body_) {}
@@ -120,17 +122,25 @@ class ObstacleCheck {
       const double from = first * motion_.dt();
       const double to = last * motion_.dt();
       if (from > end_) return {};
+      if (from >= margin_end_) endMargin();
       if (isFar(motion_.groupBox(first / CommittedMotion::kGroup), from, to)) continue;
       for (int k = first; k < last; ++k) {
+        if (k * motion_.dt() >= margin_end_) endMargin();
         const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
         if (!verdict.accepted()) return verdict;
       }
     }
+    if (motion_.duration() >= margin_end_) endMargin();
     return checkPiece(motion_.pieces(), motion_.duration(), end_);
   }
 
  private:
   double distanceAt(double time) const { return distance_ + growth_rate_ * time; }
+  /// The margin, as much as is left of it, ends with the plan.
+  void endMargin() {
+    distance_ -= margin_;
+    margin_ = 0.0;
+  }
   Vector3 centerAt(double time) const { return center_ + time * body_.velocity(); }
 
   /// Whether a box is certainly clear of the body as it sweeps from one time to another.
@@ -159,7 +169,9 @@ class ObstacleCheck {
       waived = std::min(waived, distance_);
     }
     if (missing > waived) return false;
-    distance_ -= std::min(missing + kUsedMarginTolerance, waived);
+    const double used = std::min(missing + kUsedMarginTolerance, waived);
+    distance_ -= used;
+    margin_ = std::max(0.0, margin_ - used);
     return true;
   }
 
@@ -179,8 +191,9 @@ class ObstacleCheck {
   const Superellipsoid& body_;
   double growth_rate_;
   Vector3 center_;   ///< at the epoch
-  double margin_;
-  double distance_;  ///< demanded at the epoch [m]
+  double margin_;      ///< in distance_ [m]
+  double margin_end_;  ///< [s]
+  double distance_;    ///< demanded at the epoch [m]
   double end_;
   ObstacleProof proof_;
 };
@@ -194,24 +207,28 @@ class PairCheck {
         offset_(other.motion->epoch() - motion.epoch()),
         end_(other.valid_until - motion.epoch()),
         limits_(limits),
-        margin_(limits.demand_margin ? limits.pair_margin : 0.0),
+        margin_(limits.margin_time > 0.0 ? limits.pair_margin : 0.0),
+        margin_end_(limits.margin_time - kTimeTolerance),
         proof_(limits.pair_horizontal + margin_, limits.pair_vertical + margin_) {}
 
   CheckVerdict run(const Vector3& committed) {
     // Before its epoch the other one may be anywhere along its first piece, drawn out.
     if (end_ < 0.0 || (offset_ <= kTimeTolerance && proof_.areApart(motion_.box(), other_.box()))) return {};
-    proof_ = relievedProof(committed);
+    relieve(committed);
     for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
       const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
       if (first * motion_.dt() > end_) return {};
+      if (first * motion_.dt() >= margin_end_) endMargin();
       if (areApart(first, last)) continue;
       for (int k = first; k < last && k * motion_.dt() <= end_; ++k) {
+        if (k * motion_.dt() >= margin_end_) endMargin();
         if (areApart(k, k + 1)) continue;
         const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
         if (!verdict.accepted()) return verdict;
       }
     }
     if (motion_.duration() > end_) return {};
+    if (motion_.duration() >= margin_end_) endMargin();
     // The other one may fly on while this one rests; once both rest nothing changes any more.
     const double end = motion_.duration();
     const double other_end = std::max(offset_ + other_.duration(), end);
@@ -250,14 +267,24 @@ class PairCheck {
   }
 
   /// Semi-axes with the margin, or those on which the start lies, but no less than the rule demands.
-  PairProof relievedProof(const Vector3& committed) const {
+  void relieve(const Vector3& committed) {
     const Vector3 other = other_.after(-offset_).p;
-    double extra = marginOf(motion_.start() - other, margin_);
-    if (extra < margin_) {
-      const double least = extra < 0.0 ? std::min(0.0, marginOf(committed - other, 0.0)) : 0.0;
-      extra = std::max(extra - kUsedMarginTolerance, least);
+    const double has = marginOf(motion_.start() - other, margin_);
+    if (has < margin_) {
+      const double least = has < 0.0 ? std::min(0.0, marginOf(committed - other, 0.0)) : 0.0;
+      margin_ = std::max(has - kUsedMarginTolerance, least);
     }
-    extra -= kDistanceTolerance;
+    proof_ = proofWith(margin_);
+  }
+
+  /// The margin, as much as is left of it, ends with the plan.
+  void endMargin() {
+    margin_end_ = std::numeric_limits<double>::infinity();
+    if (margin_ > 0.0) proof_ = proofWith(0.0);
+  }
+
+  PairProof proofWith(double margin) const {
+    const double extra = margin - kDistanceTolerance;
     return PairProof(limits_.pair_horizontal + extra, limits_.pair_vertical + extra);
   }
 
@@ -304,7 +331,8 @@ class PairCheck {
   double offset_;  ///< the other's epoch minus the first one's [s]
   double end_;     ///< until when the other one may be flown [s]
   const CheckLimits& limits_;
-  double margin_;
+  double margin_;      ///< in proof_ [m]
+  double margin_end_;  ///< [s]
   PairProof proof_;
 };
 

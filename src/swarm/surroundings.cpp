@@ -16,8 +16,8 @@ void include(Box& box, const Box& other) {
 
 Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles)
     : parameters_(parameters),
-      horizontal_(parameters.limits.pair_distance + parameters.limits.tracking_margin),
-      vertical_(parameters.limits.pair_distance_vertical + parameters.limits.tracking_margin),
+      horizontal_(parameters.limits.pair_distance + parameters.limits.pair_margin),
+      vertical_(parameters.limits.pair_distance_vertical + parameters.limits.pair_margin),
       motions_(uav_count),
       predictions_(uav_count),
       areas_(uav_count) {
@@ -112,7 +112,7 @@ void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& pr
     if (!motion.box.near(reach, std::max(horizontal_, vertical_))) continue;
     MovingBody body = MovingBody::fromUav(motion, horizontal_, vertical_,
                                           uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()));
-    body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.tracking_margin);
+    body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.pair_margin);
     body.setIdentity(2 * other + 1);
     problem.bodies.push_back(body);
   }

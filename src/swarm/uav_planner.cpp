@@ -32,7 +32,8 @@ CheckLimits makeCheckLimits(const Parameters& parameters, const Workspace* works
   limits.workspace_slack = distances.tracking_margin;
   limits.pair_horizontal = distances.pair_distance + 2.0 * distances.tracking_error;
   limits.pair_vertical = distances.pair_distance_vertical + 2.0 * distances.tracking_error;
-  limits.pair_margin = distances.tracking_margin - 2.0 * distances.tracking_error;
+  limits.pair_margin = distances.pair_margin - 2.0 * distances.tracking_error;
+  limits.margin_time = kHorizon * parameters.time.sampling_time;
   return limits;
 }
 
@@ -167,7 +168,7 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
 
 Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
   CheckLimits limits = limits_;
-  limits.demand_margin = false;
+  limits.margin_time = 0.0;
   record.motions.goOn(epoch);
   kept_ = record.motions.newest();
   const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits, check_);

@@ -36,8 +36,9 @@ struct LimitParameters {
   double uav_radius = 0.3;              ///< least distance of a UAV's centre to an obstacle's surface [m]
   double pair_distance = 2.0;           ///< R_CA of (14), horizontal [m]
   double pair_distance_vertical = 2.0;  ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
-  double tracking_margin = 0.2;         ///< kept on top of both distances by the planner [m]; unset: by rule
-  double tracking_error = 0.05;         ///< how far a vehicle may stray from its motion, part of tracking_margin [m];
+  double tracking_margin = 0.2;         ///< kept on top of uav_radius by the planner [m]; unset: by rule
+  double pair_margin = 0.2;             ///< kept on top of the pair distances by the planner [m]; unset: by rule
+  double tracking_error = 0.1;          ///< how far a vehicle may stray from its motion, part of the margins [m];
                                         ///< unset: by rule
   bool avoidance = true;                ///< false only for negative controls: no obstacle or pair constraint
   bool plan_check = true;               ///< false only for negative controls: plans fly unchecked

@@ -13,7 +13,7 @@ namespace swarm_planner {
 //
 // The rule for whatever is demanded with a margin: distances, workspace and bounds alike.
 //
-//   Demanded is `least` + `margin`. Where the start itself has less, what the start has is demanded all along, but
+//   Demanded is `least` + `margin` over the plan, `least` from its end on. Where the start itself has less, what the start has is demanded all along, but
 //   never less than `least`: a margin that is used up need not be regained, and must not shrink further. Where the
 //   motion committed before has less than `least` at the start's time (UAVs may stand closer than that before the
 //   first plan, an obstacle may appear beside one), what it has takes the place of `least`.
@@ -48,7 +48,9 @@ struct CheckLimits {
   double pair_horizontal = 0.0;  ///< least semi-axes of the pair ellipsoid (14) [m]
   double pair_vertical = 0.0;
   double pair_margin = 0.0;  ///< on top of both [m]
-  bool demand_margin = true;  ///< false: `least` is enough, as it is for a motion that was accepted before
+  /// How long after a motion's epoch margins are demanded [s]: over a plan, which is made to keep them. Its stop and its
+  /// rest, and a motion that was accepted before, need no more than `least`.
+  double margin_time = std::numeric_limits<double>::infinity();
   double look_ahead = 20.0;  ///< how long the resting place must stay clear of obstacles [s]
 };
 
