@@ -21,7 +21,8 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
   obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
     if (now - track.stamp > parameters_.input.track_timeout) continue;
-    obstacles_.push_back(track.shape.movedBy(epoch - track.stamp));
+    const double measured = parameters_.limits.latency_compensation ? track.stamp : now;
+    obstacles_.push_back(track.shape.movedBy(epoch - measured));
   }
 }
 

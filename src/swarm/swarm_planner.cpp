@@ -133,7 +133,11 @@ class SwarmPlanner::Impl {
     if (uav.reference_pending) uav.reference.time_zero = epoch;
     uav.reference_pending = false;
     if (!measured) return;
-    uav.predictStart(snapshot.uavs[i], epoch, parameters.input.tracking_time);
+    if (parameters.limits.latency_compensation) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters.input.tracking_time);
+    } else {
+      uav.startAsMeasured(snapshot.uavs[i], epoch);
+    }
     surroundings.setPlanning(i, uav.start);
   }
 

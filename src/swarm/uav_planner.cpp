@@ -34,6 +34,12 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, do
   start = predictFromPlan(committed, flies_previous ? previous : committed, measurement, epoch, tracking_time);
 }
 
+void UavRecord::startAsMeasured(const UavMeasurement& measurement, double epoch) {
+  // Odometry has no acceleration: without that of the plan it would begin at zero in every cycle.
+  start = {measurement.p, measurement.v, Vector3::Zero()};
+  if (isFlyingPlanAt(epoch)) start.a = committed.at(epoch).a;
+}
+
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
     : parameters_(parameters), sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {

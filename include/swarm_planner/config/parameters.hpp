@@ -37,7 +37,12 @@ struct LimitParameters {
   double pair_distance = 2.0;           ///< R_CA of (14), horizontal [m]
   double pair_distance_vertical = 2.0;  ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
   double tracking_margin = 0.2;         ///< kept on top of both distances by the planner [m]; unset: by rule
-  bool avoidance = true;                ///< false only for negative controls: no obstacle or pair constraint
+
+  // False only for negative controls:
+  bool avoidance = true;             ///< obstacle and pair constraints
+  bool plan_check = true;            ///< plans are checked before they fly
+  bool segment_constraints = true;   ///< constraints hold between the samples; false: at the samples alone
+  bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 
 /// Sampling of the horizon and the cycle.

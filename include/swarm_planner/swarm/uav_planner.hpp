@@ -34,6 +34,8 @@ struct UavRecord {
   bool isFlyingPlanAt(double t) const { return plans > 0 && t <= committed.epoch + committed.duration(); }
   /// Predicts where the UAV will be at `epoch`, from its plan and `measurement`.
   void predictStart(const UavMeasurement& measurement, double epoch, double tracking_time);
+  /// The negative control: takes position and velocity at `epoch` to be those of `measurement`, however old it is.
+  void startAsMeasured(const UavMeasurement& measurement, double epoch);
 };
 
 /// Plans for one UAV at a time: poses its problem, solves it, commits the plan, reports. Holds the memory that this
