@@ -3,29 +3,12 @@
 #include <stdexcept>
 
 #include "portable_numbers.hpp"
+#include "scenario_parts.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
 
 namespace swarm_planner {
 
 namespace {
-
-/// A UAV at rest at the start of a straight reference, which its target leaves at t = 0.
-ScenarioUav straightUav(std::size_t number, const Vector3& start, const Vector3& goal, double speed) {
-  ScenarioUav uav;
-  uav.name = "uav" + std::to_string(number);
-  uav.start = start;
-  uav.reference = {start, goal};
-  uav.target.speed = speed;
-  return uav;
-}
-
-EndCondition allAtGoal() {
-  EndCondition end;
-  end.all_at_goal = true;
-  end.timeout = 60.0;
-  end.tolerance = 0.2;
-  return end;
-}
 
 Vector3 jitter(UniformRandom& random) {
   constexpr double kMost = 0.1;  // [m] enough to break the symmetry

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "portable_numbers.hpp"
+#include "scenario_parts.hpp"
 
 namespace swarm_planner {
 
@@ -120,13 +121,11 @@ ScenarioObstacle randomObstacle(int id, UniformRandom& random) {
   return obstacle;
 }
 
-/// Equation (19).
 Vector3 randomVelocity(UniformRandom& random) {
   const double speed = random.real(0.5, 5.55);
   const double heading = random.real(-kPi, kPi);
   const double climb = random.real(-0.5 * kPi, 0.5 * kPi);
-  return Vector3(roundedToMicro(speed * std::cos(heading) * std::cos(climb)),
-                 roundedToMicro(speed * std::sin(heading) * std::cos(climb)), roundedToMicro(speed * std::sin(climb)));
+  return velocityTowards(speed, heading, climb);
 }
 
 }  // namespace

@@ -112,6 +112,15 @@ void addLimits(TableBuilder& table) {
   table.boolean(
       "avoidance", [](P& p) -> bool& { return p.limits.avoidance; },
       "false: plans ignore obstacles and other UAVs; for negative controls only");
+  table.boolean(
+      "plan_check", [](P& p) -> bool& { return p.limits.plan_check; },
+      "false: plans fly unchecked; for negative controls only");
+  table.boolean(
+      "segment_constraints", [](P& p) -> bool& { return p.limits.segment_constraints; },
+      "false: constraints hold at the samples alone; for negative controls only");
+  table.boolean(
+      "latency_compensation", [](P& p) -> bool& { return p.limits.latency_compensation; },
+      "false: measurements count as of the present, and plans start from them; for negative controls only");
 }
 
 void addTime(TableBuilder& table) {

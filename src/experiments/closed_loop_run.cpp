@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "swarm_planner/experiments/kkt_nonzeros.hpp"
+#include "swarm_planner/experiments/negative_controls.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -45,6 +46,7 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   result_.seed = seed;
   result_.uavs = vehicles_.size();
   result_.simulation = simulation;
+  result_.left_out = leftOut(mission.parameters.limits);
   result_.kkt_nonzeros = kktNonzeros(mission);
 }
 

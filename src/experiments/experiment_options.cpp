@@ -11,11 +11,13 @@
 #include <sstream>
 
 #include "swarm_planner/config/parameter_io.hpp"
+#include "swarm_planner/experiments/negative_controls.hpp"
 
 namespace swarm_planner {
 namespace {
 
 constexpr int kMostUavs = 100000;
+constexpr int kMostObstacles = 10000;
 constexpr int kMostThreads = 256;
 constexpr std::uint64_t kMostScenarios = 1000000;
 constexpr std::uint64_t kLargestSeed = 2147483647;  // that of the parameter "seed", so that a run can be repeated there
@@ -75,7 +77,8 @@ std::vector<std::uint64_t> seedRange(const std::string& option, const std::strin
 const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCommand::kFly},
                                                             {"monte_carlo", ExperimentCommand::kMonteCarlo},
                                                             {"scaling", ExperimentCommand::kScaling},
-                                                            {"circle_swap", ExperimentCommand::kCircleSwap}};
+                                                            {"circle_swap", ExperimentCommand::kCircleSwap},
+                                                            {"moving_obstacles", ExperimentCommand::kMovingObstacles}};
 
 /// Options that set parameters of the simulation, whose ranges hold.
 const std::map<std::string, std::vector<const char*>> kDisturbances = {
@@ -103,6 +106,7 @@ class Parser {
   void requireCommand(const std::string& option, std::initializer_list<ExperimentCommand> commands) const;
   void readOption(const std::string& option);
   void readStudyOption(const std::string& option);
+  void leaveOut(const std::string& names);
   void check();
 
   std::vector<std::string> arguments_;
@@ -122,7 +126,8 @@ ExperimentOptions Parser::parse() {
   while (!atEnd()) {
     const std::string argument = arguments_[next_++];
     if (isOption(argument)) {
-      if (std::find(seen_.begin(), seen_.end(), argument) != seen_.end()) throw OptionError(argument + ": given twice");
+      const bool again = std::find(seen_.begin(), seen_.end(), argument) != seen_.end();
+      if (again && argument != "--without") throw OptionError(argument + ": given twice");
       seen_.push_back(argument);
       readOption(argument);
     } else if (options_.command == ExperimentCommand::kFly) {
@@ -180,10 +185,7 @@ void Parser::readOption(const std::string& option) {
   } else if (option == "--threads") {
     options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
   } else if (option == "--without") {
-    const std::string what = value(option);
-    if (what != "avoidance")
-      throw OptionError("--without: only \"avoidance\" can be left out so far, not \"" + what + "\"");
-    options_.avoidance = false;
+    leaveOut(value(option));
   } else if (const auto disturbance = kDisturbances.find(option); disturbance != kDisturbances.end()) {
     const std::string text = value(option);
     for (const char* parameter : disturbance->second) {
@@ -194,11 +196,27 @@ void Parser::readOption(const std::string& option) {
   }
 }
 
+/// "check,segments"
+void Parser::leaveOut(const std::string& names) {
+  std::istringstream list(names + ",");
+  for (std::string name; std::getline(list, name, ',');) {
+    std::string known;
+    bool found = false;
+    for (const NegativeControl& control : kNegativeControls) {
+      known += (known.empty() ? "" : ", ") + std::string(control.name);
+      if (name != control.name) continue;
+      options_.left_out.insert(control.parameter);
+      found = true;
+    }
+    if (!found) throw OptionError("--without: expected some of " + known + ", not \"" + name + "\"");
+  }
+}
+
 void Parser::readStudyOption(const std::string& option) {
   static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
   if (option == "--uavs") {
-    requireCommand(option,
-                   {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap});
+    requireCommand(option, {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap,
+                            ExperimentCommand::kMovingObstacles});
     for (const std::string& count : values(option)) {
       options_.uavs.push_back(static_cast<int>(wholeNumber(option, count, 1, kMostUavs)));
     }
@@ -208,6 +226,9 @@ void Parser::readStudyOption(const std::string& option) {
   } else if (option == "--radius") {
     requireCommand(option, {ExperimentCommand::kCircleSwap});
     options_.radius = positiveNumber(option, value(option));
+  } else if (option == "--obstacles") {
+    requireCommand(option, {ExperimentCommand::kMovingObstacles});
+    options_.obstacles = static_cast<int>(wholeNumber(option, value(option), 1, kMostObstacles));
   } else if (std::find(kNotYet.begin(), kNotYet.end(), option) != kNotYet.end()) {
     throw OptionError(option + ": not supported yet");
   } else {
@@ -233,7 +254,7 @@ void Parser::check() {
   }
   const bool monte_carlo = options_.command == ExperimentCommand::kMonteCarlo;
   if (monte_carlo && !given("--seeds")) options_.seeds = seedsFrom(options_.seeds.front(), scenarios_);
-  if (options_.uavs.empty()) options_.uavs = {monte_carlo ? 6 : 10};
+  if (options_.uavs.empty()) options_.uavs = {options_.command == ExperimentCommand::kCircleSwap ? 10 : 6};
   if (options_.uavs.size() > 1) throw OptionError("--uavs: one number is expected here");
 }
 
@@ -254,13 +275,19 @@ commands:
                                           random obstacles as in section 4.1 of the paper
   scaling [--uavs 6 16 32 64]             growing swarms as in section 4.2 of the paper
   circle_swap [--uavs 10] [--radius 10]   UAVs on a circle [m] change places with their opposites
+  moving_obstacles [--uavs 6] [--obstacles 8]
+                                          UAVs cross a field among random moving obstacles
 
 options:
   --json FILE          write the results as JSON
   --csv DIR            write states.csv, obstacles.csv, cycles.csv and solves.csv
   --seed S             seed of disturbances and of random scenarios (monte_carlo: of the first one)
   --seeds A:B          a run for each seed from A to B
-  --without avoidance  negative control: plans ignore obstacles and other UAVs
+  --without WHAT       negative control: leave out (several: with commas, or the option again)
+                         check      plans fly unchecked
+                         segments   constraints hold at the samples alone, not between them
+                         latency    measurements count as of the present, and plans start from them
+                         avoidance  plans ignore obstacles and other UAVs
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

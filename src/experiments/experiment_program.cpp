@@ -40,7 +40,7 @@ void conduct(const ExperimentOptions& options, std::ostream& out) {
   const std::vector<RunResult> results = flyAll(runs, recorder.get());
   out << toTable(runs, results);
   if (recorder) recorder->finish();
-  if (json) json->write(toJson(results));
+  if (json) json->write(toJson(runs, results));
 }
 
 }  // namespace

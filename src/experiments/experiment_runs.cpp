@@ -14,7 +14,7 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
   faults.throwIfAny();
   for (const auto& [name, value] : options.disturbances) given[name] = value;
   if (options.threads) given["threads"] = *options.threads;
-  if (!options.avoidance) given["avoidance"] = false;
+  for (const std::string& parameter : options.left_out) given[parameter] = false;
   return given;
 }
 
@@ -62,6 +62,11 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
     case ExperimentCommand::kCircleSwap:
       for (const std::uint64_t seed : options.seeds) {
         runs.push_back(generatedRun(circleSwap(options.uavs.front(), options.radius, seed), seed, given));
+      }
+      break;
+    case ExperimentCommand::kMovingObstacles:
+      for (const std::uint64_t seed : options.seeds) {
+        runs.push_back(generatedRun(movingObstacles(options.uavs.front(), options.obstacles, seed), seed, given));
       }
       break;
     case ExperimentCommand::kHelp:

@@ -25,6 +25,14 @@ std::string jsonText(const std::string& text) {
   return quoted + '"';
 }
 
+/// An array of what `text` makes of each item.
+template <class Item, class Text>
+std::string jsonArray(const std::vector<Item>& items, const Text& text) {
+  std::string array;
+  for (const Item& item : items) array += (array.empty() ? "" : ", ") + text(item);
+  return "[" + array + "]";
+}
+
 }  // namespace
 
 JsonObject::JsonObject() {
@@ -44,6 +52,14 @@ JsonObject& JsonObject::add(const std::string& key, const std::optional<double>&
     members_ << "null";
   }
   return *this;
+}
+
+JsonObject& JsonObject::add(const std::string& key, const std::vector<std::string>& texts) {
+  return addRaw(key, jsonArray(texts, jsonText));
+}
+
+JsonObject& JsonObject::add(const std::string& key, const std::vector<JsonObject>& objects) {
+  return addRaw(key, jsonArray(objects, [](const JsonObject& object) { return object.text(); }));
 }
 
 JsonObject& JsonObject::addCount(const std::string& key, unsigned long long count) {

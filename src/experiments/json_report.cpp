@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/experiments/json_report.hpp"
 
+#include <algorithm>
+
+#include "swarm_planner/experiments/collision_partner.hpp"
 #include "swarm_planner/experiments/json_object.hpp"
 
 namespace swarm_planner {
@@ -24,12 +27,27 @@ JsonObject disturbances(const SimulationParameters& simulation) {
   return object;
 }
 
-JsonObject toObject(const RunResult& run) {
+std::vector<JsonObject> collisionEvents(const Scenario& scenario, const std::vector<Collision>& collisions) {
+  std::vector<JsonObject> events;
+  for (const Collision& collision : collisions) {
+    events.emplace_back();
+    events.back()
+        .add("time_s", collision.time)
+        .add("uav", scenario.uavs[collision.uav].name)
+        .add("with", collisionPartner(collision, scenario));
+  }
+  return events;
+}
+
+JsonObject toObject(const Scenario& scenario, const RunResult& run) {
   JsonObject fallbacks;
   for (const auto& [reason, count] : run.fallbacks) fallbacks.addCount(reason, count);
   JsonObject refusals;
   for (const auto& [reason, count] : run.refusals) refusals.addCount(reason, count);
   const RunSummary& flown = run.flown;
+  const auto with_obstacle = std::count_if(flown.collisions.begin(), flown.collisions.end(),
+                                           [](const Collision& c) { return c.with_obstacle; });
+  const auto obstacle_collisions = static_cast<std::size_t>(with_obstacle);
   JsonObject object;
   object.add("scenario", run.scenario)
       .addCount("seed", run.seed)
@@ -43,6 +61,9 @@ JsonObject toObject(const RunResult& run) {
       .add("min_uav_distance_m", flown.min_uav_distance)
       .add("min_obstacle_clearance_m", flown.min_obstacle_clearance)
       .addCount("collisions", flown.collisions.size())
+      .addCount("uav_collisions", flown.collisions.size() - obstacle_collisions)
+      .addCount("obstacle_collisions", obstacle_collisions)
+      .add("collision_events", collisionEvents(scenario, flown.collisions))
       .add("final_lag_m", toObject(flown.final_lag))
       .addCount("stuck_uavs", static_cast<unsigned>(flown.stuck_uavs))
       .add("mission_time_s", flown.mission_time)
@@ -55,15 +76,18 @@ JsonObject toObject(const RunResult& run) {
       .add("fallbacks", fallbacks)
       .addCount("deadline_misses", run.deadline_misses)
       .add("cost", flown.cost)
-      .add("disturbances", disturbances(run.simulation));
+      .add("disturbances", disturbances(run.simulation))
+      .add("without", run.left_out);
   return object;
 }
 
 }  // namespace
 
-std::string toJson(const std::vector<RunResult>& results) {
+std::string toJson(const std::vector<ExperimentRun>& runs, const std::vector<RunResult>& results) {
   std::string json = "[";
-  for (const RunResult& run : results) json += (json.size() > 1 ? ",\n " : "\n ") + toObject(run).text();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    json += (i > 0 ? ",\n " : "\n ") + toObject(runs[i].mission.scenario, results[i]).text();
+  }
   return json + "\n]\n";
 }
 

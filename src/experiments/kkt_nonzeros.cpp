@@ -21,29 +21,31 @@ struct RowCount {
   }
 };
 
-/// `per_point` half-spaces on the control points of all segments, with `axes` entries per part of the state. The first
-/// three points of the first segment are fixed by the start.
-void addControlPointRows(long long per_point, long long axes, bool with_first_point, RowCount& count) {
+/// `per_point` half-spaces on the control points of all segments, or `at_knots` alone, with `axes` entries per part of
+/// the state. The first three points of the first segment are fixed by the start.
+void addControlPointRows(long long per_point, long long axes, bool at_knots, bool with_first_point, RowCount& count) {
+  count.add(per_point * kHorizon, axes);  // the next stage's p
+  if (at_knots) return;
   const long long free_segments = kHorizon - 1;
   if (with_first_point) count.add(per_point * free_segments, axes);  // p
   count.add(per_point * free_segments, 2 * axes);                    // p and v
   count.add(per_point * free_segments, 3 * axes);                    // p, v and a
-  count.add(per_point * kHorizon, axes);                             // the next stage's p
 }
 
 RowCount countRows(const Mission& mission) {
   const Scenario& scenario = mission.scenario;
   const LimitParameters& limits = mission.parameters.limits;
+  const bool at_knots = !limits.segment_constraints;
   RowCount count;
   count.add(kHorizon, kAxes);                                              // speed
-  count.add(kHorizon, 2 * kAxes);                                          // speed between the samples: v and a
+  if (!at_knots) count.add(kHorizon, 2 * kAxes);                           // speed between the samples: v and a
   if (std::isfinite(limits.max_acceleration)) count.add(kHorizon, kAxes);  // acceleration
   count.add(kHorizon, 2 * kAxes);                                          // most thrust: v and a
   count.add(kHorizon, 2);                                                  // least thrust, upwards
-  if (scenario.workspace) addControlPointRows(2 * kAxes, 1, false, count);
+  if (scenario.workspace) addControlPointRows(2 * kAxes, 1, at_knots, false, count);
   if (limits.avoidance && !scenario.uavs.empty()) {
     const auto bodies = static_cast<long long>(scenario.obstacles.size() + scenario.uavs.size() - 1);
-    addControlPointRows(bodies, kAxes, true, count);
+    addControlPointRows(bodies, kAxes, at_knots, true, count);
   }
   return count;
 }

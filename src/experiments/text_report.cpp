@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <optional>
 
+#include "swarm_planner/experiments/collision_partner.hpp"
+
 namespace swarm_planner {
 namespace {
 
@@ -98,14 +100,13 @@ std::string align(const std::vector<Row>& rows) {
 
 std::string describe(const Collision& collision, const Scenario& scenario) {
   const std::string& uav = scenario.uavs[collision.uav].name;
-  const std::string partner = collision.with_obstacle
-                                  ? "obstacle " + std::to_string(scenario.obstacles[collision.partner].id)
-                                  : scenario.uavs[collision.partner].name;
-  return scenario.name + ": " + uav + " too close to " + partner + " at " + fixed(collision.time, 2) + " s\n";
+  return scenario.name + ": " + uav + " too close to " + collisionPartner(collision, scenario) + " at " +
+         fixed(collision.time, 2) + " s\n";
 }
 
 std::string remarks(const Scenario& scenario, const RunResult& run) {
   std::string text;
+  for (const std::string& what : run.left_out) text += scenario.name + ": negative control, without " + what + "\n";
   const std::vector<Collision>& collisions = run.flown.collisions;
   for (std::size_t i = 0; i < std::min(collisions.size(), kMostCollisionsListed); ++i) {
     text += describe(collisions[i], scenario);

@@ -21,18 +21,19 @@ Box planBox(const Trajectory& plan) {
 
 void addBoundViolations(const FlightBounds& bounds, const KinematicState& x, double dt, Violation& violation) {
   violation.add(bounds.max_speed - x.v.norm());
-  violation.add(bounds.max_speed - (x.v + 0.5 * dt * x.a).norm());
+  if (bounds.between_samples) violation.add(bounds.max_speed - (x.v + 0.5 * dt * x.a).norm());
   violation.add(bounds.max_acceleration - x.a.norm());
   const Vector3 thrust = x.a + bounds.drag_over_mass.cwiseProduct(x.v);
   violation.add(bounds.max_thrust_acceleration - (thrust + bounds.gravity).norm());
   violation.add(thrust.z() - bounds.min_vertical_thrust);
 }
 
-void addWorkspaceViolations(const Workspace& workspace, const SegmentPoints& points, Violation& violation) {
-  for (std::size_t i = 1; i < points.size(); ++i) {
+void addWorkspaceViolations(const FlightBounds& bounds, const SegmentPoints& points, Violation& violation) {
+  const std::size_t first_free = std::max<std::size_t>(firstConstrainedPoint(bounds), 1);
+  for (std::size_t i = first_free; i < points.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
-      violation.add(points[i][axis] - workspace.min[axis]);
-      violation.add(workspace.max[axis] - points[i][axis]);
+      violation.add(points[i][axis] - bounds.workspace.min[axis]);
+      violation.add(bounds.workspace.max[axis] - points[i][axis]);
     }
   }
 }
@@ -44,21 +45,22 @@ double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative
 }
 
 /// `plane`: the first of the body's planes; `end`: of all planes.
-void addBodyViolations(const MovingBody& body, const Trajectory& plan, SegmentPlanes::const_iterator plane,
-                       SegmentPlanes::const_iterator end, Violation& violation) {
+void addBodyViolations(const UavProblem& problem, const MovingBody& body, const Trajectory& plan,
+                       SegmentPlanes::const_iterator plane, SegmentPlanes::const_iterator end, Violation& violation) {
   const std::size_t index = plane != end ? plane->body : 0;
   for (int k = 0; k < kHorizon; ++k) {
     while (plane != end && plane->body == index && plane->segment < k) ++plane;
     const bool has_plane = plane != end && plane->body == index && plane->segment == k;
-    const auto i = static_cast<std::size_t>(k);
-    const SegmentPoints relative = relativePoints(body, k, segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt));
+    const SegmentPoints relative = constrainedPoints(problem, plan, k, body);
     if (isBeyond(body, relative, 0.0)) continue;
     const double known = has_plane ? leastClearance(plane->half_space, relative) : -kInfinity;
     if (known >= 0.0) continue;
     const SegmentClearance segment = segmentClearance(body, k, relative);
     if (segment.clearance >= 0.0) continue;
     const HalfSpace& half_space = known > segment.clearance ? plane->half_space : segment.half_space;
-    for (const Vector3& r : relative) violation.add(half_space.clearance(r));
+    for (std::size_t i = firstConstrainedPoint(problem.bounds); i < relative.size(); ++i) {
+      violation.add(half_space.clearance(relative[i]));
+    }
   }
 }
 
@@ -82,6 +84,7 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   min_vertical_thrust = (limits.min_thrust_ratio - 1.0) * vehicle.gravity;
   drag_over_mass = vehicle.dragOverMass();
   gravity = vehicle.gravity * upward();
+  between_samples = limits.segment_constraints;
   workspace.min = Vector3::Constant(-kInfinity);
   workspace.max = Vector3::Constant(kInfinity);
   if (scenario_workspace == nullptr) return;
@@ -90,14 +93,25 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   workspace.max = scenario_workspace->max - margin;
 }
 
+SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k) {
+  const auto i = static_cast<std::size_t>(k);
+  SegmentPoints points = segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt);
+  if (!problem.bounds.between_samples) points.fill(plan.knots[i + 1].p);
+  return points;
+}
+
+SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k, const MovingBody& body) {
+  SegmentPoints relative = relativePoints(body, k, constrainedPoints(problem, plan, k));
+  if (!problem.bounds.between_samples) relative.fill(Vector3(relative[3]));
+  return relative;
+}
+
 Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
   Violation violation;
   const bool bounded = problem.bounds.workspace.max.allFinite();
-  for (std::size_t k = 0; k < kHorizon; ++k) {
-    addBoundViolations(problem.bounds, plan.knots[k + 1], plan.dt, violation);
-    if (!bounded) continue;
-    addWorkspaceViolations(problem.bounds.workspace, segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt),
-                           violation);
+  for (int k = 0; k < kHorizon; ++k) {
+    addBoundViolations(problem.bounds, plan.knots[static_cast<std::size_t>(k) + 1], plan.dt, violation);
+    if (bounded) addWorkspaceViolations(problem.bounds, constrainedPoints(problem, plan, k), violation);
   }
   const Box box = planBox(plan);
   auto plane = planes.begin();
@@ -106,7 +120,7 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan, const
     while (plane != planes.end() && plane->body < i) ++plane;
     const bool has_planes = plane != planes.end() && plane->body == i;
     if (body.box().near(box, 0.0)) {
-      addBodyViolations(body, plan, has_planes ? plane : planes.end(), planes.end(), violation);
+      addBodyViolations(problem, body, plan, has_planes ? plane : planes.end(), planes.end(), violation);
     }
   }
   return violation;

@@ -48,8 +48,10 @@ void addNormTangents(const FlightBounds& bounds, const KinematicState& x, int st
                      Qp& qp) {
   const Vector3 none = Vector3::Zero();
   addTangent(qp, stage, Output::kVelocity, x.v, none, bounds.max_speed, from, source);
-  addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.model.dt * x.a, none, bounds.max_speed, from,
-             source);
+  if (bounds.between_samples) {
+    addTangent(qp, stage, Output::kVelocityControlPoint, x.v + 0.5 * qp.model.dt * x.a, none, bounds.max_speed, from,
+               source);
+  }
   addTangent(qp, stage, Output::kAcceleration, x.a, none, bounds.max_acceleration, from, source);
   addTangent(qp, stage, Output::kThrustAcceleration, x.a + qp.model.drag_over_mass * x.v,
              bounds.gravity + unequalDrag(bounds, x, qp), bounds.max_thrust_acceleration, from, source);
@@ -64,8 +66,9 @@ void addBoundRows(const FlightBounds& bounds, const KinematicState& x, int stage
   }
 }
 
-void addWorkspaceRows(const Workspace& workspace, int k, const SegmentPoints& points, double band, Qp& qp) {
-  for (int i = 1; i < 4; ++i) {
+void addWorkspaceRows(const FlightBounds& bounds, int k, const SegmentPoints& points, double band, Qp& qp) {
+  const Workspace& workspace = bounds.workspace;
+  for (int i = std::max(static_cast<int>(firstConstrainedPoint(bounds)), 1); i < 4; ++i) {
     const Vector3& point = points[static_cast<std::size_t>(i)];
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3 n = Vector3::Unit(axis);
@@ -83,12 +86,13 @@ struct Passage {
   int deepest = -1;                                            ///< segment that violates the distance most
 };
 
-void findPassage(const MovingBody& body, const Trajectory& iterate, double band, Passage& passage) {
+void findPassage(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band,
+                 Passage& passage) {
   double least = 0.0;
   passage.deepest = -1;
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    passage.relative[i] = relativePoints(body, k, segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt));
+    passage.relative[i] = constrainedPoints(problem, iterate, k, body);
     passage.near[i].reset();
     if (isBeyond(body, passage.relative[i], band)) continue;
     const SegmentClearance segment = segmentClearance(body, k, passage.relative[i]);
@@ -104,12 +108,12 @@ void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory&
                  SegmentPlanes* planes) {
   const MovingBody& body = problem.bodies[index];
   Passage passage;
-  findPassage(body, iterate, band, passage);
+  findPassage(problem, body, iterate, band, passage);
   std::optional<PassingSide> side;
   if (passage.deepest > 0) {
     const auto i = static_cast<std::size_t>(passage.deepest);
     const double time = passage.deepest * iterate.dt;
-    const Vector3 position = midpoint(segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt));
+    const Vector3 position = midpoint(constrainedPoints(problem, iterate, passage.deepest));
     side = PassingSide::choose(body, passage.relative[i], position, kReachableSpeed * problem.bounds.max_speed * time,
                                problem.bounds.workspace);
   }
@@ -119,7 +123,7 @@ void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory&
     HalfSpace half_space = passage.near[i]->half_space;
     if (side && passage.near[i]->clearance < 0.0) half_space = side->halfSpace(body, midpoint(passage.relative[i]));
     if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, half_space});
-    for (int j = 0; j < 4; ++j) {
+    for (int j = static_cast<int>(firstConstrainedPoint(problem.bounds)); j < 4; ++j) {
       addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),
                          kBodySource + 2 * body.identity());
     }
@@ -198,7 +202,7 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
     const SegmentPoints points = segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt);
     for (const Vector3& point : points) box.include(point);
     addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, qp);
-    if (bounded) addWorkspaceRows(problem.bounds.workspace, k, points, band, qp);
+    if (bounded) addWorkspaceRows(problem.bounds, k, points, band, qp);
   }
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     if (problem.bodies[i].box().near(box, band)) addBodyRows(problem, i, iterate, band, qp, planes);

@@ -32,7 +32,8 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
   checked_obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
     if (now - track.stamp > parameters_.input.track_timeout) continue;
-    obstacles_.push_back(track.shape.movedBy(epoch_ - track.stamp));
+    const double measured = limits.latency_compensation ? track.stamp : now;
+    obstacles_.push_back(track.shape.movedBy(epoch_ - measured));
     PredictedObstacle checked;
     checked.stamp = epoch_;
     checked.least_distance = limits.uav_radius + limits.tracking_error;

@@ -78,6 +78,11 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
     }
     return;
   }
+  if (!parameters.limits.latency_compensation) {
+    // Odometry has no acceleration: without that of the motion it would begin at zero in every cycle.
+    start = {measurement.p, measurement.v, motions.flown().at(epoch).a};
+    return;
+  }
   start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
 }
 
@@ -103,7 +108,8 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
 
   CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
   // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on from.
-  if (!verdict.accepted() && record.planned && areApart(record.start, committed)) {
+  const bool compensated = parameters_.limits.latency_compensation;
+  if (!verdict.accepted() && record.planned && compensated && areApart(record.start, committed)) {
     record.start = committed;
     verdict = propose(uav, epoch, record, surroundings, report);
   }

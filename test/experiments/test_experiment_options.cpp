@@ -29,7 +29,7 @@ TEST(ExperimentOptions, ReadsWhatIsGiven) {
                                                                  {"jitter", 0.05},
                                                                  {"drop", 0.2}}));
   EXPECT_EQ(options.threads, 2);
-  EXPECT_FALSE(options.avoidance);
+  EXPECT_EQ(options.left_out, std::set<std::string>{"avoidance"});
 }
 
 TEST(ExperimentOptions, HasTheStudiesOfThePaperAsDefaults) {
@@ -48,6 +48,29 @@ TEST(ExperimentOptions, HasTheStudiesOfThePaperAsDefaults) {
   EXPECT_EQ(swap.seeds, std::vector<std::uint64_t>{0});
   EXPECT_TRUE(parseExperimentOptions({"fly", "a.yaml"}).seeds.empty());
   EXPECT_EQ(parseExperimentOptions({"scaling", "--help"}).command, ExperimentCommand::kHelp);
+}
+
+TEST(ExperimentOptions, LeavesOutWhatIsNamedWithCommasOrInTurn) {
+  const std::set<std::string> expected = {"plan_check", "segment_constraints", "latency_compensation"};
+  EXPECT_EQ(parseExperimentOptions({"circle_swap", "--without", "check,segments,latency"}).left_out, expected);
+  EXPECT_EQ(
+      parseExperimentOptions({"circle_swap", "--without=check", "--without", "latency,segments", "--without", "check"})
+          .left_out,
+      expected);
+  EXPECT_TRUE(parseExperimentOptions({"circle_swap"}).left_out.empty());
+}
+
+TEST(ExperimentOptions, FliesSixUavsAmongEightMovingObstacles) {
+  const ExperimentOptions options = parseExperimentOptions({"moving_obstacles"});
+  EXPECT_EQ(options.command, ExperimentCommand::kMovingObstacles);
+  EXPECT_EQ(options.uavs, std::vector<int>{6});
+  EXPECT_EQ(options.obstacles, 8);
+  EXPECT_EQ(options.seeds, std::vector<std::uint64_t>{0});
+  const ExperimentOptions more =
+      parseExperimentOptions({"moving_obstacles", "--uavs", "3", "--obstacles", "20", "--seeds", "1:2"});
+  EXPECT_EQ(more.uavs, std::vector<int>{3});
+  EXPECT_EQ(more.obstacles, 20);
+  EXPECT_EQ(more.seeds.size(), 2u);
 }
 
 struct Mistake {
@@ -79,7 +102,16 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"fly", "a.yaml", "--noise", "0.1x"}, "--noise: expected a number >= 0"},
       {{"fly", "a.yaml", "--noise="}, "--noise: expected a number >= 0"},
       {{"fly", "a.yaml", "--threads", "0"}, "--threads: expected a whole number from 1"},
-      {{"fly", "a.yaml", "--without", "check"}, "only \"avoidance\""},
+      {{"fly", "a.yaml", "--without", "guide"}, "expected some of check, segments, latency, avoidance, not \"guide\""},
+      {{"fly", "a.yaml", "--without", "check,,latency"}, "not \"\""},
+      {{"fly", "a.yaml", "--without", "check,"}, "not \"\""},
+      {{"fly", "a.yaml", "--without"}, "--without: a value is missing"},
+      {{"circle_swap", "--obstacles", "8"}, "does not go with this command"},
+      {{"monte_carlo", "--obstacles", "8"}, "does not go with this command"},
+      {{"moving_obstacles", "--obstacles", "0"}, "--obstacles: expected a whole number from 1"},
+      {{"moving_obstacles", "--radius", "5"}, "does not go with this command"},
+      {{"moving_obstacles", "--scenarios", "5"}, "does not go with this command"},
+      {{"moving_obstacles", "--uavs", "6", "7"}, "one number"},
       {{"fly", "a.yaml", "--uavs", "6"}, "does not go with this command"},
       {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},
       {{"fly", "a.yaml", "--latency", "-0.1"}, "--latency: expected a number in [0, 10] [s], not \"-0.1\""},

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 #include "support/temporary_directory.hpp"
@@ -246,6 +247,23 @@ TEST_F(ExperimentProgramTest, AWrongCommandLineIsToldFromFailedWork) {
   EXPECT_NE(err_.str().find("--help"), std::string::npos);
   EXPECT_EQ(run({"--help"}), kExperimentDone);
   EXPECT_NE(out_.str().find("monte_carlo"), std::string::npos);
+}
+
+TEST_F(ExperimentProgramTest, MovingObstaclesFlyAndWhatWasLeftOutIsTold) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"moving_obstacles", "--uavs", "2", "--obstacles", "3", "--seeds", "4:5", "--without", "check",
+                 "--without", "latency", "--json", json_file, "--csv", directory_.file("csv")}),
+            kExperimentDone)
+      << err_.str();
+  const YAML::Node json = YAML::Load(contentOf(json_file));
+  ASSERT_EQ(json.size(), 2u);
+  EXPECT_EQ(json[1]["scenario"].as<std::string>(), "moving_obstacles_5");
+  EXPECT_EQ(json[1]["uavs"].as<int>(), 2);
+  EXPECT_EQ(json[1]["without"].as<std::vector<std::string>>(), (std::vector<std::string>{"check", "latency"}));
+  std::set<std::string> ids;
+  const auto rows = csvRows(directory_.file("csv") + "/obstacles.csv");
+  for (std::size_t i = 1; i < rows.size(); ++i) ids.insert(rows[i][2]);
+  EXPECT_EQ(ids, (std::set<std::string>{"1", "2", "3"}));
 }
 
 TEST_F(ExperimentProgramTest, GeneratedScenariosFly) {

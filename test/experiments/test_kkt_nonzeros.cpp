@@ -79,6 +79,26 @@ TEST(KktNonzeros, CountsEveryEntryOfThePosedProblem) {
   EXPECT_EQ(kktNonzeros(mission), count.total());
 }
 
+TEST(KktNonzeros, HasNoRowBetweenTheSamplesWhereConstraintsHoldAtTheKnots) {
+  Mission mission;
+  mission.parameters.limits.segment_constraints = false;
+  mission.scenario.uavs.resize(4);
+  mission.scenario.workspace = Workspace();
+  KktCount count(mission);
+  count.addDynamics();
+  const Vector3 full(1.0, 1.0, 1.0);
+  for (int k = 0; k < kHorizon; ++k) {
+    for (const Output output : {Output::kVelocity, Output::kThrustAcceleration}) count.addRow(output, full);
+    count.addRow(Output::kThrustAcceleration, Vector3::UnitZ());
+    for (int body = 0; body < 3; ++body) count.addRow(Output::kPosition, full);
+    for (int axis = 0; axis < 3; ++axis) {
+      count.addRow(Output::kPosition, Vector3::Unit(axis));
+      count.addRow(Output::kPosition, -Vector3::Unit(axis));
+    }
+  }
+  EXPECT_EQ(kktNonzeros(mission), count.total());
+}
+
 TEST(KktNonzeros, GrowsByTheSameForEveryUavOrObstacle) {
   Mission mission;
   mission.scenario.uavs.resize(1);

@@ -34,6 +34,18 @@ RunResult someResult() {
   return run;
 }
 
+/// Whose result it is.
+ExperimentRun someRun() {
+  ExperimentRun run;
+  run.mission.scenario.name = "two";
+  run.mission.scenario.uavs.resize(2);
+  run.mission.scenario.uavs[0].name = "anna";
+  run.mission.scenario.uavs[1].name = "bert";
+  run.mission.scenario.obstacles.resize(1);
+  run.mission.scenario.obstacles[0].id = 42;
+  return run;
+}
+
 std::set<std::string> keysOf(const YAML::Node& node) {
   std::set<std::string> keys;
   for (const auto& entry : node) keys.insert(entry.first.as<std::string>());
@@ -41,7 +53,7 @@ std::set<std::string> keysOf(const YAML::Node& node) {
 }
 
 TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
-  const YAML::Node json = YAML::Load(toJson({someResult(), RunResult()}));
+  const YAML::Node json = YAML::Load(toJson({someRun(), someRun()}, {someResult(), RunResult()}));
   ASSERT_TRUE(json.IsSequence());
   ASSERT_EQ(json.size(), 2u);
   const std::set<std::string> keys = {"scenario",
@@ -56,6 +68,9 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "min_uav_distance_m",
                                       "min_obstacle_clearance_m",
                                       "collisions",
+                                      "uav_collisions",
+                                      "obstacle_collisions",
+                                      "collision_events",
                                       "final_lag_m",
                                       "stuck_uavs",
                                       "mission_time_s",
@@ -67,7 +82,8 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "fallbacks",
                                       "deadline_misses",
                                       "cost",
-                                      "disturbances"};
+                                      "disturbances",
+                                      "without"};
   const std::set<std::string> distribution = {"mean", "median", "p99", "max"};
   const std::set<std::string> mean_max = {"mean", "max"};
   for (const YAML::Node& run : json) {
@@ -81,7 +97,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
 }
 
 TEST(JsonReport, GivesTheValuesBack) {
-  const YAML::Node run = YAML::Load(toJson({someResult()}))[0];
+  const YAML::Node run = YAML::Load(toJson({someRun()}, {someResult()}))[0];
   EXPECT_EQ(run["scenario"].as<std::string>(), "a \"strange\"\n\\name");
   EXPECT_EQ(run["seed"].as<std::uint64_t>(), 12345678901234ULL);
   EXPECT_EQ(run["collisions"].as<int>(), 2);
@@ -95,17 +111,39 @@ TEST(JsonReport, GivesTheValuesBack) {
   EXPECT_NEAR(run["cost"].as<double>() / (1.0e7 / 3.0), 1.0, 1e-11);
 }
 
-TEST(JsonReport, NoRunsAreAnEmptyArray) { EXPECT_EQ(YAML::Load(toJson({})).size(), 0u); }
+TEST(JsonReport, ListsTheCollisionsByKind) {
+  RunResult result = someResult();
+  result.flown.collisions.push_back({3.25, 0, true, 0});
+  const YAML::Node run = YAML::Load(toJson({someRun(), someRun()}, {RunResult(), result}))[1];
+  EXPECT_EQ(run["collisions"].as<int>(), 3);
+  EXPECT_EQ(run["uav_collisions"].as<int>(), 1);
+  EXPECT_EQ(run["obstacle_collisions"].as<int>(), 2);
+  const YAML::Node events = run["collision_events"];
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0]["time_s"].as<double>(), 1.5);
+  EXPECT_EQ(events[0]["uav"].as<std::string>(), "anna");
+  EXPECT_EQ(events[0]["with"].as<std::string>(), "bert");
+  EXPECT_EQ(events[2]["time_s"].as<double>(), 3.25);
+  EXPECT_EQ(events[2]["uav"].as<std::string>(), "anna");
+  EXPECT_EQ(events[2]["with"].as<std::string>(), "obstacle 42");
+}
+
+TEST(Reports, TellWhatWasLeftOut) {
+  RunResult result;
+  const YAML::Node all = YAML::Load(toJson({someRun()}, {result}))[0]["without"];
+  EXPECT_TRUE(all.IsSequence() && all.size() == 0u);
+  EXPECT_EQ(toTable({someRun()}, {result}).find("without"), std::string::npos);
+  result.left_out = {"check", "latency"};
+  const YAML::Node without = YAML::Load(toJson({someRun()}, {result}))[0]["without"];
+  EXPECT_EQ(without.as<std::vector<std::string>>(), result.left_out);
+  const std::string table = toTable({someRun()}, {result});
+  EXPECT_NE(table.find("negative control, without latency"), std::string::npos) << table;
+}
+
+TEST(JsonReport, NoRunsAreAnEmptyArray) { EXPECT_EQ(YAML::Load(toJson({}, {})).size(), 0u); }
 
 TEST(TextReport, SaysWhoCollidedWithWhatAndSumsTheRunsUp) {
-  ExperimentRun run;
-  run.mission.scenario.name = "two";
-  run.mission.scenario.uavs.resize(2);
-  run.mission.scenario.uavs[0].name = "anna";
-  run.mission.scenario.uavs[1].name = "bert";
-  run.mission.scenario.obstacles.resize(1);
-  run.mission.scenario.obstacles[0].id = 42;
-  const std::string table = toTable({run, run}, {someResult(), someResult()});
+  const std::string table = toTable({someRun(), someRun()}, {someResult(), someResult()});
   EXPECT_NE(table.find("anna too close to bert at 1.50 s"), std::string::npos) << table;
   EXPECT_NE(table.find("bert too close to obstacle 42 at 2.50 s"), std::string::npos) << table;
   EXPECT_NE(table.find("all 2 runs"), std::string::npos) << table;

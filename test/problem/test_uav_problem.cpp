@@ -69,6 +69,8 @@ TEST_F(ViolationTest, CountsSpeedBetweenTheKnots) {
   for (const KinematicState& knot : plan.knots) ASSERT_LT(knot.v.norm(), 5.0);
   ASSERT_GT(plan.after(1.5 * dt).v.norm(), 5.0);
   expectViolation(plan, 1, 0.5);
+  flight_.problem.bounds.between_samples = false;
+  expectViolation(plan, 0, 0.0);
 }
 
 TEST_F(ViolationTest, CountsAcceleration) {
@@ -110,6 +112,8 @@ TEST_F(ViolationTest, CountsTheWorkspaceLessTheMargin) {
   expectViolation(resting(Vector3(0, 5.0 - margin + 0.5, 10)), 3 * kHorizon, 0.5);
   expectViolation(resting(Vector3(-5.0 + margin - 0.5, 0, 10)), 3 * kHorizon, 0.5);
   expectViolation(resting(Vector3(0, 0, margin - 0.5)), 3 * kHorizon, 0.5);
+  flight_.problem.bounds.between_samples = false;
+  expectViolation(resting(Vector3(0, 0, margin - 0.5)), kHorizon, 0.5);
 }
 
 TEST_F(ViolationTest, CountsObstacles) {
@@ -139,6 +143,23 @@ TEST_F(ViolationTest, CountsOtherUavs) {
   const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.tracking_margin;
   expectViolation(resting(Vector3(kept, 0, 10)), 0, 0.0);
   expectViolation(resting(Vector3(0, kept - 0.7, 10)), 4 * kHorizon, 0.7);
+}
+
+TEST_F(ViolationTest, CountsBodiesAtTheKnotsAloneWithoutSegmentConstraints) {
+  const double dt = flight_.problem.dt;
+  const double stage = 7.0;  // [m]
+  const auto passing = [&](double x, double y) {
+    return straightPlan(Vector3(x, y, 10), Vector3(stage / dt, 0, 0), 0.0, dt);
+  };
+  flight_.addObstacle(
+      Superellipsoid(1, Vector3(0, 0, 10), Vector3::Constant(1.0), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+  flight_.addUav(resting(Vector3(0, 0, 10)));
+  // Through the middle of both, with the knots 3.5 m before and behind.
+  EXPECT_GT(planViolation(flight_.problem, passing(-1.5 * stage, 0.0)).largest, 1.0);
+  flight_.problem.bounds.between_samples = false;
+  expectViolation(passing(-1.5 * stage, 0.0), 0, 0.0);
+  const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.tracking_margin;
+  expectViolation(passing(-2.0 * stage, kept - 0.4), 1, 0.4);
 }
 
 TEST_F(ViolationTest, SumsWhatItCounts) {
@@ -187,6 +208,9 @@ TEST(FlightBounds, AreThoseOfTheParameters) {
   EXPECT_LT((bounds.workspace.max - Vector3(0.8, 1.8, 2.8)).norm(), 1e-12);
   EXPECT_LT((bounds.workspace.min + Vector3(0.8, 1.8, 2.8)).norm(), 1e-12);
   EXPECT_EQ(FlightBounds(parameters, nullptr).workspace.max, Vector3::Constant(kInfinity));
+  EXPECT_TRUE(bounds.between_samples);
+  parameters.limits.segment_constraints = false;
+  EXPECT_FALSE(FlightBounds(parameters, &workspace).between_samples);
 }
 
 /// Everything that a plan can violate, sampled densely. Between the knots thrust is not held exactly: there the

@@ -278,6 +278,41 @@ TEST_F(LinearisationTest, HasWorkspaceRowsWithinTheBandOnly) {
   EXPECT_EQ(bodyRows(linearised(flight.problem, flight.coasting())), 0);
 }
 
+TEST_F(LinearisationTest, HasRowsAtTheKnotsAloneWithoutSegmentConstraints) {
+  const KinematicState start{Vector3(0, 0, 10), Vector3(4, 0, 0), Vector3(1, 0, 0)};
+  FlightProblem flight(kLine, 3.0, start);
+  flight.parameters.limits.segment_constraints = false;
+  const Workspace workspace{Vector3(-50, -1, -50), Vector3(50, 50, 50)};
+  flight.setWorkspace(&workspace);
+  flight.addUav(straightPlan(Vector3(0, 3, 10), Vector3(4, 0, 0), 0.0, flight.problem.dt));
+  const Qp& qp = linearised(flight.problem, flight.coasting());
+  EXPECT_EQ(rowsOf(qp, Output::kVelocity), kHorizon);
+  EXPECT_EQ(rowsOf(qp, Output::kVelocityControlPoint), 0);
+  EXPECT_EQ(rowsOf(qp, Output::kControlPoint1) + rowsOf(qp, Output::kControlPoint2), 0);
+  // Of each knot the workspace's face and, while the other one is near, the pair's plane.
+  EXPECT_GT(rowsOf(qp, Output::kPosition), kHorizon);
+  EXPECT_LE(rowsOf(qp, Output::kPosition), 2 * kHorizon);
+}
+
+// The half-space is the one towards the knot, not the one towards the middle of the way to it.
+TEST_F(LinearisationTest, TurnsThePlanesToTheKnotsWithoutSegmentConstraints) {
+  const KinematicState start{Vector3(0, 0, 10), Vector3(4, 0, 0), Vector3::Zero()};
+  FlightProblem flight(kLine, 3.0, start);
+  flight.parameters.limits.segment_constraints = false;
+  flight.useParameters();
+  const Vector3 other(2.0, 2.5, 10);
+  flight.addUav(straightPlan(other, Vector3::Zero(), 0.0, flight.problem.dt));
+  const Trajectory iterate = flight.coasting();
+  const Qp& qp = linearised(flight.problem, iterate);
+  for (std::size_t k = 1; k <= 3; ++k) {
+    const QpStage& stage = qp.stages[k];
+    const auto row = std::find_if(stage.rows.begin(), stage.rows.begin() + stage.row_count,
+                                  [](const QpRow& r) { return r.output == Output::kPosition; });
+    ASSERT_NE(row, stage.rows.begin() + stage.row_count);
+    EXPECT_LT((row->n - (iterate.knots[k].p - other).normalized()).norm(), 1e-9) << "knot " << k;
+  }
+}
+
 // Rows on what no jerk can change would only add a constant penalty and take room from others.
 TEST_F(LinearisationTest, HasNoRowForWhatTheStartFixes) {
   Random random(5);

@@ -49,6 +49,15 @@ TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
   EXPECT_LT((body.point(kHorizon - 1, 3) - Vector3(10, 0, 0) - end * Vector3(1, -2, 0.5)).norm(), 1e-9);
 }
 
+TEST_F(SurroundingsTest, TakeTracksForNewWithoutLatencyCompensation) {
+  flight_.parameters.limits.latency_compensation = false;
+  Surroundings surroundings(flight_.parameters, 1, 4);
+  surroundings.setPlanning(0, flight_.problem.start);
+  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch - 0.3, kEpoch);
+  ASSERT_EQ(collected(surroundings).size(), 1U);
+  EXPECT_LT((flight_.problem.bodies[0].point(0, 0) - Vector3(10.3, -0.6, 0.15)).norm(), 1e-12);
+}
+
 TEST_F(SurroundingsTest, DropOldTracks) {
   Surroundings surroundings(flight_.parameters, 1, 4);
   surroundings.setPlanning(0, flight_.problem.start);

@@ -117,6 +117,23 @@ TEST(Start, OnOneUavAloneFliesItsReference) {
   EXPECT_NEAR(flight.planner().report().uavs[0].lag, 0.0, 0.2);
 }
 
+TEST(Start, OfAPlanIsTheMeasurementItselfWithoutLatencyCompensation) {
+  for (const bool compensated : {true, false}) {
+    Mission mission = twoAbreast();
+    mission.parameters.limits.latency_compensation = compensated;
+    SwarmPlanner planner(mission);
+    planner.plan(snapshotOf(mission, 10.0), 10.3);
+    const Trajectory before = planner.committed(0);
+    Snapshot late = snapshotOf(mission, 10.3);
+    late.uavs[0] = {true, 10.1, Vector3(0.5, 0.1, 10.0), Vector3(2.0, 0.0, 0.0)};
+    planner.plan(late, 10.6);
+    const KinematicState& start = planner.committed(0).knots.front();
+    EXPECT_EQ(start.p == late.uavs[0].p, !compensated);
+    EXPECT_EQ(start.v == late.uavs[0].v, !compensated);
+    EXPECT_LT((start.a - before.at(10.6).a).norm(), 1e-12) << "odometry has no acceleration";
+  }
+}
+
 // Time of day in seconds: what a real clock gives must fly as a simulation's does.
 TEST(Start, AtALargeTimeFliesTheSame) {
   PerfectFlight small(twoAbreast());

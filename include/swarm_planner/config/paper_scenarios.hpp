@@ -33,4 +33,10 @@ Scenario crossing();
 /// symmetric; any other moves each start and goal by up to 0.1 m along each axis.
 Scenario circleSwap(int uavs, double radius, std::uint64_t seed);
 
+/// `uavs` UAVs cross a field of 30 m x 30 m (larger for more than six: the same area for each) between 3 and 13 m of
+/// height, from random starts to random goals, 3 m apart or more, among `obstacles` superellipsoids in random motion
+/// that never come closer than 3 m to a start within the first 4 s; doc/scenarios.md gives the ranges. Throws
+/// std::invalid_argument, too, if no such scenario is found.
+Scenario movingObstacles(int uavs, int obstacles, std::uint64_t seed);
+
 }  // namespace swarm_planner

@@ -40,8 +40,12 @@ struct LimitParameters {
   double pair_margin = 0.2;             ///< kept on top of the pair distances by the planner [m]; unset: by rule
   double tracking_error = 0.1;          ///< how far a vehicle may stray from its motion, part of the margins [m];
                                         ///< unset: by rule
-  bool avoidance = true;                ///< false only for negative controls: no obstacle or pair constraint
-  bool plan_check = true;               ///< false only for negative controls: plans fly unchecked
+
+  // False only for negative controls:
+  bool avoidance = true;             ///< obstacle and pair constraints
+  bool plan_check = true;            ///< plans are checked before they fly
+  bool segment_constraints = true;   ///< constraints hold between the samples; false: at the samples alone
+  bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 
 /// Sampling of the horizon and the cycle.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ class OptionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap };
+enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles };
 
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
@@ -24,6 +25,7 @@ struct ExperimentOptions {
   std::vector<std::string> scenario_files;  ///< fly
   std::vector<int> uavs;                    ///< the others; scaling: several
   double radius = 10.0;                     ///< circle_swap [m]
+  int obstacles = 8;                        ///< moving_obstacles
 
   /// A run for each: --seeds A:B (both ends included), --seed S, or 0; monte_carlo: as many from S on as scenarios.
   /// Empty only for fly without either: then the parameter "seed" holds.
@@ -31,7 +33,8 @@ struct ExperimentOptions {
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
   std::optional<int> threads;  ///< of the planner
-  bool avoidance = true;       ///< false: negative control
+  /// Parameters that are to be false, those of negative_controls.hpp.
+  std::set<std::string> left_out;
   std::optional<std::string> parameter_file;
   std::optional<std::string> json_file;
   std::optional<std::string> csv_directory;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "swarm_planner/simulation/run_monitor.hpp"
 
@@ -20,6 +21,8 @@ class JsonObject {
   /// null if empty; JSON knows neither NaN nor infinity: they are null, too.
   JsonObject& add(const std::string& key, const std::optional<double>& number);
   JsonObject& addCount(const std::string& key, unsigned long long count);
+  JsonObject& add(const std::string& key, const std::vector<std::string>& texts);
+  JsonObject& add(const std::string& key, const std::vector<JsonObject>& objects);
   JsonObject& addFlag(const std::string& key, bool flag);
 
   std::string text() const { return "{" + members_.str() + "}"; }

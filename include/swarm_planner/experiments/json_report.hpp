@@ -4,12 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "swarm_planner/experiments/experiment_runs.hpp"
 #include "swarm_planner/experiments/run_result.hpp"
 
 namespace swarm_planner {
 
-/// The results as JSON (INTERFACES "Experiment program"): an array with an object per run, every key present; a minimum
-/// without a partner is null. Numbers have 12 significant digits.
-std::string toJson(const std::vector<RunResult>& results);
+/// The results of `runs` as JSON (INTERFACES "Experiment program"): an array with an object per run, every key present;
+/// a minimum without a partner is null. Numbers have 12 significant digits.
+std::string toJson(const std::vector<ExperimentRun>& runs, const std::vector<RunResult>& results);
 
 }  // namespace swarm_planner

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
@@ -16,7 +17,8 @@ struct RunResult {
   std::string scenario;
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
-  SimulationParameters simulation;  ///< the disturbances that it was flown with, among others
+  SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
+  std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
   Distribution cycle_ms;                         ///< planning of the whole swarm, snapshot in to plans out [ms]
   Distribution uav_ms;                           ///< planning of one UAV [ms]

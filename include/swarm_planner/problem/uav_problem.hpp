@@ -20,6 +20,7 @@ struct FlightBounds {
   Vector3 drag_over_mass = Vector3::Zero();  ///< of A = a + k_d / M v, eq. (3) [1/s]
   Vector3 gravity = Vector3::Zero();         ///< g e3 [m/s^2]
   Workspace workspace;                       ///< infinite where the scenario has none
+  bool between_samples = true;               ///< false: constraints hold at the knots alone (negative control)
 
   FlightBounds() = default;
   FlightBounds(const Parameters& parameters, const Workspace* scenario_workspace);
@@ -38,6 +39,16 @@ struct UavProblem {
   std::array<TargetState, kHorizon + 1> targets;  ///< of each stage
   std::vector<MovingBody> bodies;                 ///< whatever can be reached within the horizon
 };
+
+/// Points at which constraints hold while a plan flies segment k: its four control points, or, where they hold at the
+/// knots alone, four times the knot at its end.
+SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k);
+
+/// The same relative to a body's reference point [m].
+SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k, const MovingBody& body);
+
+/// The first of these that counts: 0, or 3 where all four are the same knot.
+inline std::size_t firstConstrainedPoint(const FlightBounds& bounds) { return bounds.between_samples ? 0 : 3; }
 
 /// How far a plan violates the constraints.
 struct Violation {
@@ -66,7 +77,8 @@ using SegmentPlanes = std::vector<SegmentPlane>;
 /// velocities at the Bernstein control points between them, so that nothing happens between the samples unseen. A
 /// segment is clear of a body if one half-space has the one in front and the other behind: that towards the segment's
 /// middle, or one that `planes` knows. With the planes of the QP that a step comes from, a step that keeps them is not
-/// refused only because the planes turn as the plan moves along a curved body.
+/// refused only because the planes turn as the plan moves along a curved body. Unless bounds.between_samples: at the
+/// knots alone.
 Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes = {});
 
 /// The exact penalty function that every step has to decrease.

@@ -16,8 +16,9 @@ QpModels makeQpModels(const Parameters& parameters);
 
 /// Poses the QP of a problem at an iterate: the cost's gradient is exact there, its curvature that of the model, at
 /// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies
-/// on all control points of a segment, tangent planes for the norm limits. Only what lies within `band` [m] of the
-/// iterate gets rows. `planes`, if given, takes down the half-spaces, as many as it has room for.
+/// on all control points of a segment (at the knots alone unless bounds.between_samples), tangent planes for the norm
+/// limits. Only what lies within `band` [m] of the iterate gets rows. `planes`, if given, takes down the half-spaces,
+/// as many as it has room for.
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp,
                SegmentPlanes* planes = nullptr);
 

@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// A flight without collision shows that a protection works only if the same flight without it has one.
+#include <gtest/gtest.h>
+
+#include "swarm_planner/config/paper_scenarios.hpp"
+#include "swarm_planner/experiments/closed_loop_run.hpp"
+#include "swarm_planner/experiments/negative_controls.hpp"
+
+namespace swarm_planner {
+namespace {
+
+struct CollisionCount {
+  int with_uav = 0;
+  int with_obstacle = 0;
+};
+
+RunResult flown(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
+  const Mission mission = makeMission(scenario, given, scenario.name);
+  IterativePlanner planner(mission);
+  return ClosedLoopRun(mission, planner, seed).fly();
+}
+
+void count(const RunResult& run, CollisionCount& total) {
+  for (const Collision& collision : run.flown.collisions)
+    ++(collision.with_obstacle ? total.with_obstacle : total.with_uav);
+}
+
+CollisionCount ofSwaps(std::uint64_t last_seed, const ParameterMap& given) {
+  CollisionCount total;
+  for (std::uint64_t seed = 0; seed <= last_seed; ++seed) count(flown(circleSwap(10, 10.0, seed), seed, given), total);
+  return total;
+}
+
+CollisionCount amongMovingObstacles(std::uint64_t last_seed, const ParameterMap& given) {
+  CollisionCount total;
+  for (std::uint64_t seed = 0; seed <= last_seed; ++seed) count(flown(movingObstacles(6, 8, seed), seed, given), total);
+  return total;
+}
+
+TEST(NegativeControls, WithoutSegmentConstraintsUavsMeetBetweenTheSamples) {
+  EXPECT_EQ(ofSwaps(3, {}).with_uav, 0);
+  EXPECT_GT(ofSwaps(3, {{"segment_constraints", false}}).with_uav, 0);
+}
+
+TEST(NegativeControls, WithoutSegmentConstraintsUavsCutThroughObstaclesBetweenTheSamples) {
+  const CollisionCount with = amongMovingObstacles(9, {});
+  EXPECT_EQ(with.with_obstacle, 0);
+  EXPECT_EQ(with.with_uav, 0);
+  EXPECT_GT(amongMovingObstacles(9, {{"segment_constraints", false}}).with_obstacle, 0);
+}
+
+TEST(NegativeControls, WithoutLatencyCompensationLateMeasurementsMeanCollisions) {
+  EXPECT_EQ(ofSwaps(9, {{"latency", 0.3}}).with_uav, 0);
+  EXPECT_GT(ofSwaps(9, {{"latency", 0.3}, {"latency_compensation", false}}).with_uav, 0);
+}
+
+TEST(NegativeControls, AreToldInTheResult) {
+  EXPECT_TRUE(leftOut(LimitParameters()).empty());
+  for (const NegativeControl& control : kNegativeControls) {
+    const RunResult run = flown(circleSwap(1, 1.0, 0), 0, {{control.parameter, false}});
+    EXPECT_EQ(run.left_out, std::vector<std::string>{control.name});
+  }
+}
+
+}  // namespace
+}  // namespace swarm_planner
