@@ -17,11 +17,15 @@ Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, 
   neighbours_.reserve(uav_count);
 }
 
-void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch) {
+void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double epoch) {
   obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
-    if (now - track.stamp > parameters_.input.track_timeout) continue;
-    obstacles_.push_back(track.shape.movedBy(epoch - track.stamp));
+    const double age = epoch - track.stamp;
+    const TrackInflation inflation = inflationOf(track, parameters_.input);
+    const double at_epoch = inflation.at(age);
+    const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
+                                inflation.at(inflation.growth_time) - at_epoch};
+    obstacles_.push_back({track.shape.movedBy(age), at_epoch, growth});
   }
 }
 
@@ -82,8 +86,9 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
   const double distance = parameters_.limits.uav_radius + parameters_.limits.tracking_margin;
   // The robustness function reaches as far as S = r_b, at most sqrt(r_b) radii.
   const double halo = std::sqrt(parameters_.cost.robustness_outer) - 1.0;
-  for (const Superellipsoid& obstacle : obstacles_) {
-    MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance);
+  for (const PredictedTrack& track : obstacles_) {
+    const Superellipsoid& obstacle = track.shape;
+    MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance + track.inflation, track.growth);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
     body.relieve(problem.start.p - obstacle.center(), parameters_.limits.tracking_margin);
     body.setIdentity(2 * static_cast<std::uint32_t>(obstacle.id()));

@@ -17,8 +17,8 @@ class Surroundings {
   /// Up to `max_obstacles` obstacles before memory has to grow.
   Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles);
 
-  /// Predicts the tracks to `epoch`. A track older than track_timeout at `now` is left out.
-  void setObstacles(const std::vector<TrackedObstacle>& tracks, double now, double epoch);
+  /// Predicts the tracks to `epoch`.
+  void setObstacles(const std::vector<TrackedObstacle>& tracks, double epoch);
   /// Nothing is known of the UAV; others need not keep clear of it.
   void setUnknown(std::size_t uav);
   /// The UAV flies `plan`; the stages are those of a horizon that starts at `epoch`.
@@ -38,6 +38,12 @@ class Surroundings {
   void collect(std::size_t uav, UavProblem& problem) const;
 
  private:
+  struct PredictedTrack {
+    Superellipsoid shape;   ///< at the epoch
+    double inflation;       ///< at the epoch [m]
+    DistanceGrowth growth;  ///< of the inflation from then on
+  };
+
   Box reach(const KinematicState& start) const;
   void collectObstacles(const Box& reach, UavProblem& problem) const;
   void collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const;
@@ -45,7 +51,7 @@ class Surroundings {
   const Parameters& parameters_;
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
-  std::vector<Superellipsoid> obstacles_;  ///< at the epoch
+  std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedMotion> motions_;
   std::vector<char> known_;  ///< whether motions_[uav] holds
   std::vector<Box> areas_;   ///< where each UAV may be within the horizon, grown by half the pair distance
