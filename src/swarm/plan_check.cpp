@@ -23,7 +23,8 @@ bool isFinite(const Trajectory& plan) {
 bool isFinite(const PredictedObstacle& obstacle) {
   return std::isfinite(obstacle.stamp) && std::isfinite(obstacle.margin) && obstacle.margin >= 0.0 &&
          std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
-         std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && !std::isnan(obstacle.valid_until);
+         std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && obstacle.growth_time >= 0.0 &&
+         !std::isnan(obstacle.valid_until);
 }
 
 bool areClose(const KinematicState& x, const KinematicState& y) {
@@ -106,8 +107,11 @@ class ObstacleCheck {
       : motion_(motion),
         body_(*obstacle.body),
         growth_rate_(obstacle.growth_rate),
+        // A stamp after the epoch counts as the epoch: what grows later is never less than demanded.
+        growth_end_(std::max(obstacle.growth_time - std::max(motion.epoch() - obstacle.stamp, 0.0), 0.0)),
         center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
-        distance_(obstacle.least_distance + obstacle.margin + growth_rate_ * (motion.epoch() - obstacle.stamp)),
+        distance_(obstacle.least_distance + obstacle.margin +
+                  growth_rate_ * std::clamp(motion.epoch() - obstacle.stamp, 0.0, obstacle.growth_time)),
         end_(std::min(motion.duration() + look_ahead, obstacle.valid_until - motion.epoch())),
         proof_(body_) {}
 
@@ -129,7 +133,7 @@ class ObstacleCheck {
   }
 
  private:
-  double distanceAt(double time) const { return distance_ + growth_rate_ * time; }
+  double distanceAt(double time) const { return distance_ + growth_rate_ * std::min(time, growth_end_); }
   Vector3 centerAt(double time) const { return center_ + time * body_.velocity(); }
 
   /// Whether a box is certainly clear of the body as it sweeps from one time to another.
@@ -161,7 +165,10 @@ class ObstacleCheck {
     const Vector3 begin = centerAt(from);
     const Vector3 step = (to - from) / 3.0 * body_.velocity();
     for (int i = 0; i < 4; ++i) relative[static_cast<std::size_t>(i)] -= begin + i * step;
-    const ClearanceFinding finding = proof_.prove(relative, from, to, distanceAt(from), distanceAt(to));
+    // The proof takes a demand that is linear over the piece. Where growth ends within it the demand lies above its
+    // chord: there it is that of the end all along.
+    const bool grows_on = growth_end_ >= to || growth_end_ <= from;
+    const ClearanceFinding finding = proof_.prove(relative, from, to, distanceAt(grows_on ? from : to), distanceAt(to));
     if (finding.clear) return {};
     const CheckReason reason = k < motion_.pieces() ? CheckReason::kObstacle : CheckReason::kRestingPlace;
     return {reason, finding.time, -1, finding.undecided};
@@ -170,8 +177,9 @@ class ObstacleCheck {
   const CommittedMotion& motion_;
   const Superellipsoid& body_;
   double growth_rate_;
-  Vector3 center_;   ///< at the epoch
-  double distance_;  ///< demanded at the epoch [m]
+  double growth_end_;  ///< [s]
+  Vector3 center_;     ///< at the epoch
+  double distance_;    ///< demanded at the epoch [m]
   double end_;
   ObstacleProof proof_;
 };
@@ -313,6 +321,19 @@ const char* checkReasonText(CheckReason reason) {
       return "an obstacle comes to its resting place";
   }
   return "unknown";
+}
+
+PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least,
+                                  double margin) {
+  const TrackInflation inflation = inflationOf(track, input);
+  PredictedObstacle obstacle;
+  obstacle.body = &track.shape;
+  obstacle.stamp = track.stamp;
+  obstacle.least_distance = least + inflation.at_stamp;
+  obstacle.margin = margin;
+  obstacle.growth_rate = inflation.growth_rate;
+  obstacle.growth_time = inflation.growth_time;
+  return obstacle;
 }
 
 CheckVerdict checkClearance(const CommittedMotion& motion, const CheckLimits& limits,
