@@ -208,6 +208,12 @@ void addInput(TableBuilder& table) {
       "track_timeout", "s", Range::above(0.0), [](P& p) -> double& { return p.input.track_timeout; },
       "an obstacle track is predicted for at most so long");
   table.number(
+      "track_sigmas", "", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.input.track_sigmas; },
+      "how many standard deviations of an obstacle track are kept clear of");
+  table.number(
+      "track_growth_time", "s", Range::closed(0.0, 60.0), [](P& p) -> double& { return p.input.track_growth_time; },
+      "a track's velocity is in doubt for at most so long after its stamp");
+  table.number(
       "tracking_time", "s", Range::above(0.0), [](P& p) -> double& { return p.input.tracking_time; },
       "time constant with which a vehicle's deviation from its plan decays");
   table.number(

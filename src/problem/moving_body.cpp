@@ -6,16 +6,19 @@
 
 namespace swarm_planner {
 
-MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance) {
+MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
+                                    const DistanceGrowth& growth) {
   MovingBody body;
   body.obstacle_ = &obstacle;
   body.step_ = dt * obstacle.velocity();
   body.level_ = level;
   body.distance_ = distance;
+  body.growth_ = growth;
   // S(u) = level lies within the surface S = 1 stretched by the largest factor that an exponent of at least 2 gives.
   const double stretch = std::sqrt(level);
-  body.radius_ = stretch * obstacle.boundingRadius() + distance;
-  body.extent_ = stretch * obstacle.halfExtents() + Vector3::Constant(distance);
+  const double most = distance + body.growth(kHorizon - 1);
+  body.radius_ = stretch * obstacle.boundingRadius() + most;
+  body.extent_ = stretch * obstacle.halfExtents() + Vector3::Constant(most);
   const Vector3 end = obstacle.center() + kHorizon * body.step_;
   body.box_.min = obstacle.center().cwiseMin(end) - body.extent_;
   body.box_.max = obstacle.center().cwiseMax(end) + body.extent_;
@@ -33,6 +36,13 @@ MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal,
   body.extent_ = Vector3(horizontal, horizontal, vertical);
   body.box_.min = motion.box.min - body.extent_;
   body.box_.max = motion.box.max + body.extent_;
+  return body;
+}
+
+MovingBody MovingBody::grownTo(int k) const {
+  MovingBody body = *this;
+  body.distance_ += growth(k);
+  body.growth_ = {};
   return body;
 }
 
@@ -66,7 +76,7 @@ Vector3 midpoint(const SegmentPoints& r) { return 0.125 * (r[0] + r[3]) + 0.375 
 SegmentClearance segmentClearance(const MovingBody& body, int k, const SegmentPoints& relative) {
   SegmentClearance result;
   result.half_space = body.supportingHalfSpace(midpoint(relative));
-  result.half_space.offset -= body.relief(k);
+  result.half_space.offset += body.growth(k) - body.relief(k);
   result.clearance = result.half_space.clearance(relative[0]);
   for (std::size_t i = 1; i < 4; ++i)
     result.clearance = std::min(result.clearance, result.half_space.clearance(relative[i]));

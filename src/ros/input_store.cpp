@@ -7,7 +7,13 @@
 
 namespace swarm_planner {
 
-InputStore::InputStore(std::size_t uavs, double track_timeout) : track_timeout_(track_timeout), uavs_(uavs) {}
+namespace {
+
+constexpr std::size_t kUsualTracks = 256;  // more take memory from the heap, in a thread that no cycle waits for
+
+}  // namespace
+
+InputStore::InputStore(std::size_t uavs, double track_timeout) : uavs_(uavs), tracks_(track_timeout, kUsualTracks) {}
 
 void InputStore::accept(std::size_t uav, const OdometrySample& sample) {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -31,12 +37,12 @@ void InputStore::accept(const TrackBatch& batch) {
   ++track_input_.messages;
   track_input_.faults += batch.faults.size();
   if (!batch.faults.empty()) track_input_.last_fault = batch.faults.front();
-  for (const TrackedObstacle& track : batch.tracks) {
-    const auto [entry, added] = tracks_.try_emplace(track.shape.id(), track);
-    if (!added && track.stamp >= entry->second.stamp) entry->second = track;
-    track_input_.stamp = track_input_.received ? std::max(track_input_.stamp, track.stamp) : track.stamp;
-    track_input_.received = true;
-  }
+  if (batch.tracks.empty()) return;
+  // All tracks of a batch have its stamp, which has been judged against the clock.
+  const double stamp = batch.tracks.front().stamp;
+  tracks_.update(batch.tracks, stamp);
+  track_input_.stamp = track_input_.received ? std::max(track_input_.stamp, stamp) : stamp;
+  track_input_.received = true;
 }
 
 void InputStore::clear() {
@@ -45,7 +51,7 @@ void InputStore::clear() {
     input.received = false;
     input.fault.clear();
   }
-  tracks_.clear();
+  tracks_.reset();
   track_input_.received = false;
 }
 
@@ -62,15 +68,9 @@ void InputStore::fill(double now, Snapshot& snapshot) {
     measurement.v = input.sample.v;
     if (input.received) snapshot.now = std::max(snapshot.now, input.sample.stamp);
   }
-  snapshot.obstacles.clear();
-  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
-    if (now - entry->second.stamp > track_timeout_) {
-      entry = tracks_.erase(entry);
-    } else {
-      snapshot.obstacles.push_back(entry->second);
-      ++entry;
-    }
-  }
+  tracks_.forget(now);
+  snapshot.obstacles = tracks_.tracks();
+  for (const TrackedObstacle& track : snapshot.obstacles) snapshot.now = std::max(snapshot.now, track.stamp);
 }
 
 std::vector<UavInput> InputStore::uavs() const {
@@ -81,7 +81,7 @@ std::vector<UavInput> InputStore::uavs() const {
 TrackInput InputStore::tracks() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   TrackInput input = track_input_;
-  input.known = tracks_.size();
+  input.known = tracks_.tracks().size();
   return input;
 }
 

@@ -114,14 +114,16 @@ void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory&
     const auto i = static_cast<std::size_t>(passage.deepest);
     const double time = passage.deepest * iterate.dt;
     const Vector3 position = midpoint(constrainedPoints(problem, iterate, passage.deepest));
-    side = PassingSide::choose(body, passage.relative[i], position, kReachableSpeed * problem.bounds.max_speed * time,
-                               problem.bounds.workspace);
+    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
+                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
   }
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
     if (!passage.near[i]) continue;
     HalfSpace half_space = passage.near[i]->half_space;
-    if (side && passage.near[i]->clearance < 0.0) half_space = side->halfSpace(body, midpoint(passage.relative[i]));
+    if (side && passage.near[i]->clearance < 0.0) {
+      half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
+    }
     if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, half_space});
     for (int j = static_cast<int>(firstConstrainedPoint(problem.bounds)); j < 4; ++j) {
       addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),

@@ -24,7 +24,8 @@ bool isFinite(const Trajectory& plan) {
 bool isFinite(const PredictedObstacle& obstacle) {
   return std::isfinite(obstacle.stamp) && std::isfinite(obstacle.margin) && obstacle.margin >= 0.0 &&
          std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
-         std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && !std::isnan(obstacle.valid_until);
+         std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && obstacle.growth_time >= 0.0 &&
+         !std::isnan(obstacle.valid_until);
 }
 
 bool areClose(const KinematicState& x, const KinematicState& y) {
@@ -107,10 +108,13 @@ class ObstacleCheck {
       : motion_(motion),
         body_(*obstacle.body),
         growth_rate_(obstacle.growth_rate),
+        // A stamp after the epoch counts as the epoch: what grows later is never less than demanded.
+        growth_end_(std::max(obstacle.growth_time - std::max(motion.epoch() - obstacle.stamp, 0.0), 0.0)),
         center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
         margin_(limits.margin_time > 0.0 ? obstacle.margin : 0.0),
         margin_end_(limits.margin_time - kTimeTolerance),
-        distance_(obstacle.least_distance + margin_ + growth_rate_ * (motion.epoch() - obstacle.stamp)),
+        distance_(obstacle.least_distance + margin_ +
+                  growth_rate_ * std::clamp(motion.epoch() - obstacle.stamp, 0.0, obstacle.growth_time)),
         end_(std::min(motion.duration() + limits.look_ahead, obstacle.valid_until - motion.epoch())),
         proof_(body_) {}
 
@@ -135,7 +139,7 @@ class ObstacleCheck {
   }
 
  private:
-  double distanceAt(double time) const { return distance_ + growth_rate_ * time; }
+  double distanceAt(double time) const { return distance_ + growth_rate_ * std::min(time, growth_end_); }
   /// The margin, as much as is left of it, ends with the plan.
   void endMargin() {
     distance_ -= margin_;
@@ -181,7 +185,10 @@ class ObstacleCheck {
     const Vector3 begin = centerAt(from);
     const Vector3 step = (to - from) / 3.0 * body_.velocity();
     for (int i = 0; i < 4; ++i) relative[static_cast<std::size_t>(i)] -= begin + i * step;
-    const ClearanceFinding finding = proof_.prove(relative, from, to, distanceAt(from), distanceAt(to));
+    // The proof takes a demand that is linear over the piece. Where growth ends within it the demand lies above its
+    // chord: there it is that of the end all along.
+    const bool grows_on = growth_end_ >= to || growth_end_ <= from;
+    const ClearanceFinding finding = proof_.prove(relative, from, to, distanceAt(grows_on ? from : to), distanceAt(to));
     if (finding.clear) return {};
     const CheckReason reason = k < motion_.pieces() ? CheckReason::kObstacle : CheckReason::kRestingPlace;
     return {reason, finding.time, -1, finding.undecided};
@@ -190,7 +197,8 @@ class ObstacleCheck {
   const CommittedMotion& motion_;
   const Superellipsoid& body_;
   double growth_rate_;
-  Vector3 center_;   ///< at the epoch
+  double growth_end_;  ///< [s]
+  Vector3 center_;     ///< at the epoch
   double margin_;      ///< in distance_ [m]
   double margin_end_;  ///< [s]
   double distance_;    ///< demanded at the epoch [m]
@@ -371,6 +379,19 @@ const char* checkReasonText(CheckReason reason) {
       return "goes farther than others expect";
   }
   return "unknown";
+}
+
+PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least,
+                                  double margin) {
+  const TrackInflation inflation = inflationOf(track, input);
+  PredictedObstacle obstacle;
+  obstacle.body = &track.shape;
+  obstacle.stamp = track.stamp;
+  obstacle.least_distance = least + inflation.at_stamp;
+  obstacle.margin = margin;
+  obstacle.growth_rate = inflation.growth_rate;
+  obstacle.growth_time = inflation.growth_time;
+  return obstacle;
 }
 
 CheckVerdict checkClearance(const CommittedMotion& motion, const Vector3& committed, const CheckLimits& limits,

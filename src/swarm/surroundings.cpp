@@ -31,17 +31,17 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
   obstacles_.clear();
   checked_obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
-    if (now - track.stamp > parameters_.input.track_timeout) continue;
     const double measured = limits.latency_compensation ? track.stamp : now;
-    obstacles_.push_back(track.shape.movedBy(epoch_ - measured));
-    PredictedObstacle checked;
-    checked.stamp = epoch_;
-    checked.least_distance = limits.uav_radius + limits.tracking_error;
-    checked.margin = limits.tracking_margin - limits.tracking_error;
-    checked_obstacles_.push_back(checked);
+    const double age = epoch_ - measured;
+    const TrackInflation inflation = inflationOf(track, parameters_.input);
+    const double at_epoch = inflation.at(age);
+    const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
+                                inflation.at(inflation.growth_time) - at_epoch};
+    obstacles_.push_back({track.shape.movedBy(age), at_epoch, growth});
+    checked_obstacles_.push_back(predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error,
+                                                 limits.tracking_margin - limits.tracking_error));
+    checked_obstacles_.back().stamp = measured;
   }
-  // Only now that they stay where they are.
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) checked_obstacles_[i].body = &obstacles_[i];
 }
 
 void Surroundings::setUnknown(std::size_t uav) {
@@ -95,9 +95,11 @@ void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
 void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const {
   const double level = std::exp(parameters_.cost.epsilon_s);
   const double distance = parameters_.limits.uav_radius + parameters_.limits.tracking_margin;
-  const double halo = std::sqrt(parameters_.cost.robustness_outer);
-  for (const Superellipsoid& obstacle : obstacles_) {
-    MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance);
+  // The robustness function reaches as far as S = r_b, at most sqrt(r_b) radii.
+  const double halo = std::sqrt(parameters_.cost.robustness_outer) - 1.0;
+  for (const PredictedTrack& track : obstacles_) {
+    const Superellipsoid& obstacle = track.shape;
+    MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance + track.inflation, track.growth);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
     body.relieve(problem.start.p - obstacle.center(), parameters_.limits.tracking_margin);
     body.setIdentity(2 * static_cast<std::uint32_t>(obstacle.id()));

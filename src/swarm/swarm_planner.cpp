@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
@@ -16,8 +17,7 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kClockTolerance = 0.05;  // odometry stamped later than this is from the future [s]
-constexpr double kLargest = 1e8;          // metres or m/s that no UAV is at: an estimator has diverged
+constexpr double kLargest = 1e8;  // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
@@ -47,6 +47,7 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
+        tracks(parameters.input.track_timeout, maxObstacles(mission)),
         surroundings(parameters, uavs.size(), maxObstacles(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
@@ -64,10 +65,18 @@ class SwarmPlanner::Impl {
     }
   }
 
+  void reset() {
+    report.started = false;
+    tracks.reset();
+    for (UavRecord& uav : uavs) uav.reset();
+  }
+
   void plan(const Snapshot& snapshot, double epoch, double budget) {
     const Stopwatch stopwatch;
     ++report.cycle;
     report.epoch = epoch;
+    tracks.update(snapshot.obstacles, snapshot.now);
+    report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
     if (!report.started && mayStart(snapshot)) {
       report.started = true;
@@ -106,7 +115,7 @@ class SwarmPlanner::Impl {
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
-    surroundings.setObstacles(snapshot.obstacles, snapshot.now);
+    surroundings.setObstacles(tracks.tracks(), snapshot.now);
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
@@ -158,6 +167,7 @@ class SwarmPlanner::Impl {
     }
   }
 
+  TrackMemory tracks;
   Surroundings surroundings;
   SolveOrder order;
   ThreadTeam team;
@@ -200,9 +210,6 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   impl_->uavs[uav].setReference(path, start, speed);
 }
 
-void SwarmPlanner::reset() {
-  impl_->report.started = false;
-  for (UavRecord& uav : impl_->uavs) uav.reset();
-}
+void SwarmPlanner::reset() { impl_->reset(); }
 
 }  // namespace swarm_planner

@@ -39,7 +39,7 @@ class MidFlight {
       tracks[i].shape = flight_.obstacle(i, epoch_);
       tracks[i].stamp = epoch_;
     }
-    surroundings_.setObstacles(tracks, epoch_, epoch_);
+    surroundings_.setObstacles(tracks, epoch_);
     setMotions();
     surroundings_.findNeighbours();
     for (std::size_t i = 0; i < uavCount(); ++i) poseProblem(i);

@@ -50,6 +50,8 @@ const Place kPlaces[] = {
     {"threads", 3, [](const Parameters& p) -> ParameterValue { return p.compute.threads; }},
     {"odometry_timeout", 0.63, [](const Parameters& p) -> ParameterValue { return p.input.odometry_timeout; }},
     {"track_timeout", 0.64, [](const Parameters& p) -> ParameterValue { return p.input.track_timeout; }},
+    {"track_sigmas", 2.1, [](const Parameters& p) -> ParameterValue { return p.input.track_sigmas; }},
+    {"track_growth_time", 2.2, [](const Parameters& p) -> ParameterValue { return p.input.track_growth_time; }},
     {"tracking_time", 0.65, [](const Parameters& p) -> ParameterValue { return p.input.tracking_time; }},
     {"autostart", false, [](const Parameters& p) -> ParameterValue { return p.input.autostart; }},
     {"mass", 0.47, [](const Parameters& p) -> ParameterValue { return p.vehicle.mass; }},

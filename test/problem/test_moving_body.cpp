@@ -252,6 +252,52 @@ TEST(MovingBody, BoxAndRadiusContainWhatIsToBeKeptClearOf) {
   }
 }
 
+TEST(Growth, MovesTheHalfSpaceOfEachSegmentOutUntilItEnds) {
+  Random random(15);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Superellipsoid obstacle = paperBody(random);
+    const DistanceGrowth growth{random.uniform(0.0, 0.3), random.uniform(0.0, 2.0)};
+    MovingBody steady = MovingBody::fromObstacle(obstacle, kDt, kLevel, 0.5);
+    MovingBody growing = MovingBody::fromObstacle(obstacle, kDt, kLevel, 0.5, growth);
+    const Vector3 r = randomOffset(random, obstacle, random.uniform(0.5, 1.2));
+    steady.relieve(r, 0.1);
+    growing.relieve(r, 0.1);
+    for (int k = 0; k < kHorizon; ++k) {
+      const double expected = std::min((k + 1) * growth.per_stage, growth.limit);
+      const SegmentPoints resting{r, r, r, r};
+      const SegmentClearance before = segmentClearance(steady, k, resting);
+      const SegmentClearance after = segmentClearance(growing, k, resting);
+      EXPECT_EQ(after.half_space.n, before.half_space.n);
+      EXPECT_NEAR(after.half_space.offset - before.half_space.offset, expected,
+                  1e-12 * (1.0 + after.half_space.offset));
+      EXPECT_NEAR(before.clearance - after.clearance, expected, 1e-12 * (1.0 + after.half_space.offset));
+      const HalfSpace grown = growing.grownTo(k).supportingHalfSpace(r);
+      EXPECT_NEAR(grown.offset - steady.supportingHalfSpace(r).offset, expected, 1e-12 * (1.0 + grown.offset));
+      EXPECT_NEAR(growing.grownTo(k).distance(), 0.5 + expected, 1e-12);
+      EXPECT_EQ(growing.grownTo(k).growth(kHorizon - 1), 0.0);
+    }
+  }
+}
+
+TEST(Growth, LiesWithinBoxAndRadius) {
+  Random random(16);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Superellipsoid obstacle = paperBody(random);
+    const DistanceGrowth growth{random.uniform(0.0, 0.3), random.uniform(0.0, 6.0)};
+    const MovingBody body = MovingBody::fromObstacle(obstacle, kDt, kLevel, 0.5, growth);
+    const double tolerance = 1e-9 * (1.0 + body.radius());
+    for (int k = 0; k < kHorizon; ++k) {
+      Vector3 u = randomOffset(random, obstacle, 1.0);
+      u /= obstacle.gauge(u, kLevel).value;
+      u += (0.5 + body.growth(k)) * random.direction();
+      EXPECT_FALSE(isBeyond(body, SegmentPoints{u, u, u, u}, -tolerance));
+      const Vector3 position = obstacle.movedBy((k + random.uniform(0.0, 1.0)) * kDt).center() + u;
+      EXPECT_TRUE((position.array() >= body.box().min.array() - tolerance).all());
+      EXPECT_TRUE((position.array() <= body.box().max.array() + tolerance).all());
+    }
+  }
+}
+
 TEST(MovingBody, BoxAndRadiusContainThePairEllipsoidAlongThePlan) {
   Random random(11);
   for (int trial = 0; trial < 100; ++trial) {

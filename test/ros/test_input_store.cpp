@@ -65,6 +65,14 @@ TEST_F(InputStoreTest, SnapshotIsNeverOlderThanItsNewestSample) {
   EXPECT_EQ(snapshot(10.5).now, 10.5);
 }
 
+// Or the planner would take the track for one from the future.
+TEST_F(InputStoreTest, SnapshotIsNeverOlderThanItsNewestTrack) {
+  store_.accept(trackAt(10.08, 1, 5.0));
+  EXPECT_EQ(snapshot(10.0).now, 10.08);
+  EXPECT_EQ(snapshot(10.0).obstacles.size(), 1U);
+  EXPECT_EQ(snapshot(10.5).now, 10.5);
+}
+
 TEST_F(InputStoreTest, KeepsTheYawOfTheStart) {
   store_.accept(0, sampleAt(10.0, 0.0, 0.4));
   store_.accept(0, sampleAt(10.1, 0.0, 0.9));

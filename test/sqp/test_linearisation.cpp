@@ -224,6 +224,38 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
   EXPECT_GT(judged, 75);
 }
 
+// Towards the segment and past a body met head on alike.
+TEST_F(LinearisationTest, KeepsTheGrownDistanceOnEachSegment) {
+  Random random(7);
+  SegmentPlanes planes;
+  planes.reserve(1000);
+  int sideways = 0;
+  int count = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    FlightProblem flight(kLine, 3.0, {Vector3(0, 0, 10), Vector3(3, 0, 0), Vector3::Zero()});
+    const DistanceGrowth growth{random.uniform(0.0, 0.2), random.uniform(0.0, 2.0)};
+    const Vector3 center(random.uniform(6.0, 16.0), random.uniform(-2.0, 2.0), random.uniform(8.0, 12.0));
+    flight.addObstacle(Superellipsoid(1, center, random.vector(0.5, 2.0), random.vector(2.0, 8.0), 0.3,
+                                      Vector3(random.uniform(-1.0, 0.0), 0.0, 0.0)),
+                       growth);
+    const MovingBody& body = flight.problem.bodies[0];
+    linearise(flight.problem, flight.coasting(), kBand, *qp_, &planes);
+    for (const SegmentPlane& plane : planes) {
+      double support = 0.0;
+      for (int i = 0; i < 200; ++i) {
+        const Vector3 u = random.direction();
+        support = std::max(support, plane.half_space.n.dot(u) / body.obstacle()->gauge(u).value);
+      }
+      const double kept = body.distance() + std::min((plane.segment + 1) * growth.per_stage, growth.limit);
+      ASSERT_GE(plane.half_space.offset, support + kept - 1e-9) << plane.segment;
+      sideways += std::abs(plane.half_space.n.x()) < 0.1 ? 1 : 0;
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 500);
+  EXPECT_GT(sideways, 100);
+}
+
 TEST_F(LinearisationTest, HoldsTheSpeedByTheTangentPlaneAtTheIterate) {
   const KinematicState start{Vector3(0, 0, 10), Vector3(4, 0, 0), Vector3(1, 0, 0)};
   FlightProblem flight(kLine, 3.0, start);

@@ -78,12 +78,12 @@ class FlightProblem {
   }
   void setWorkspace(const Workspace* workspace) { problem.bounds = FlightBounds(parameters, workspace); }
 
-  void addObstacle(const Superellipsoid& obstacle) {
+  void addObstacle(const Superellipsoid& obstacle, const DistanceGrowth& growth = {}) {
     obstacles_.push_back(obstacle);
     const LimitParameters& limits = parameters.limits;
     problem.bodies.push_back(MovingBody::fromObstacle(obstacles_.back(), problem.dt,
                                                       std::exp(parameters.cost.epsilon_s),
-                                                      limits.uav_radius + limits.tracking_margin));
+                                                      limits.uav_radius + limits.tracking_margin, growth));
   }
   void addUav(const Trajectory& plan, const Vector3& apart = Vector3::UnitX()) {
     motions_.emplace_back();

@@ -76,6 +76,7 @@ void CheckScene::addRandomObstacle(Random& random, double clearance) {
   PredictedObstacle& obstacle = surroundings.obstacles.back();
   obstacle.stamp -= age;
   obstacle.growth_rate = random.integer(0, 1) == 0 ? 0.0 : random.uniform(0.0, 0.05);
+  if (random.integer(0, 1) == 0) obstacle.growth_time = random.uniform(0.0, 5.0);
 }
 
 void CheckScene::addUav(const Trajectory& plan) {
@@ -108,10 +109,12 @@ void CheckScene::addRandomUav(Random& random, double gauge) {
 SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstacle& obstacle) {
   const CommittedMotion& motion = scene.motion;
   const double age = motion.epoch() - obstacle.stamp;
+  const auto demanded = [&](double time) {
+    return obstacle.least_distance + obstacle.growth_rate * std::min(time + age, obstacle.growth_time);
+  };
   const auto clearance = [&](double time) {
     const Vector3 moved = (time + age) * obstacle.body->velocity();
-    return obstacle.body->signedDistance(motion.after(time).p - moved) - obstacle.least_distance -
-           obstacle.growth_rate * (time + age);
+    return obstacle.body->signedDistance(motion.after(time).p - moved) - demanded(time);
   };
   const double at_start = clearance(0.0);
   const double margin = std::min(std::max(at_start, 0.0), obstacle.margin);
@@ -121,7 +124,7 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
     // Far away the box about the body will do.
     const Vector3 moved = (time + age) * obstacle.body->velocity();
-    const double reach = result.slack + margin + obstacle.least_distance + obstacle.growth_rate * (time + age);
+    const double reach = result.slack + margin + demanded(time);
     if (obstacle.body->distanceLowerBound(motion.after(time).p - moved) > reach) continue;
     const double slack = clearance(time) - margin;
     if (slack < result.slack) {

@@ -16,6 +16,7 @@
 #include "check_scene.hpp"
 #include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
+#include "swarm_planner/obstacles/track_memory.hpp"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SWARM_PLANNER_COUNTS_ALLOCATIONS 1
@@ -179,6 +180,24 @@ TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {
     }
   };
   EXPECT_EQ(heapCallsOfFlight(mission, 120, tamper), 0);
+}
+
+TEST_F(NoHeap, RememberingTracksAllocatesNothing) {
+  constexpr int kCapacity = 100;
+  TrackMemory memory(1.0, kCapacity);
+  Random random(2);
+  std::size_t most = 0;
+  for (int n = 0; n < 300; ++n) {
+    std::vector<TrackedObstacle> tracks(static_cast<std::size_t>(random.integer(0, kCapacity)));
+    for (TrackedObstacle& track : tracks) {
+      track.shape = Superellipsoid(random.integer(1, kCapacity), random.vector(-9.0, 9.0), Vector3::Ones(),
+                                   Vector3::Constant(2.0), 0.0, Vector3::Zero());
+      track.stamp = 0.3 * n - random.uniform(-0.2, 1.2);
+    }
+    EXPECT_EQ(heapCalls([&] { memory.update(tracks, 0.3 * n); }), 0);
+    most = std::max(most, memory.tracks().size());
+  }
+  EXPECT_GT(most, 80U);
 }
 
 TEST_F(NoHeap, CheckingPlansAllocatesNothing) {

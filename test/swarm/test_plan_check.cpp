@@ -334,6 +334,91 @@ TEST(PlanCheck, GrowsTheDistanceWithTheAgeOfThePrediction) {
   EXPECT_FALSE(verdict(3.0, 0.101).accepted());
 }
 
+TEST(PlanCheck, EndsTheGrowthWithItsTime) {
+  const auto verdict = [](double age, double growth, double growth_time) {
+    CheckScene scene;
+    scene.plan(straightPlan(Vector3(-6.0, 0.0, 0.0), Vector3(3.0, 0.0, 0.0), 100.0, 0.3));
+    scene.addObstacle(
+        Superellipsoid(1, Vector3(0.0, 2.0, 0.0), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+    scene.surroundings.obstacles[0].stamp = 100.0 - age;
+    scene.surroundings.obstacles[0].growth_rate = growth;
+    scene.surroundings.obstacles[0].growth_time = growth_time;
+    return scene.check();
+  };
+  // Passed at 2 s with half a metre more than the 0.5 m demanded.
+  EXPECT_TRUE(verdict(0.0, 0.499, 1.0).accepted());
+  EXPECT_FALSE(verdict(0.0, 0.501, 1.0).accepted());
+  EXPECT_TRUE(verdict(0.5, 0.499, 1.0).accepted());
+  EXPECT_FALSE(verdict(0.5, 0.501, 1.0).accepted());
+  EXPECT_TRUE(verdict(10.0, 0.499, 1.0).accepted()) << "it ended before the epoch";
+  EXPECT_FALSE(verdict(10.0, 0.501, 1.0).accepted());
+  EXPECT_TRUE(verdict(0.0, 100.0, 0.0).accepted());
+  EXPECT_FALSE(verdict(-3.0, 0.501, 1.0).accepted()) << "a stamp from the future must not demand less";
+  EXPECT_EQ(verdict(0.0, 0.0, std::nan("")).reason, CheckReason::kNotFinite);
+  EXPECT_EQ(verdict(0.0, 0.0, -1.0).reason, CheckReason::kNotFinite);
+}
+
+// Where growth ends within a piece, what is demanded lies above its chord.
+TEST(PlanCheck, DemandsEnoughWhereGrowthEnds) {
+  Random random(11);
+  int refused = 0;
+  int spared = 0;
+  int accepted = 0;
+  for (int n = 0; n < 400; ++n) {
+    CheckScene scene;
+    scene.limits.look_ahead = 1.0;
+    scene.planRandomly(random, 4.0);
+    scene.addRandomObstacle(random, random.uniform(0.8, 1.5));
+    PredictedObstacle& obstacle = scene.surroundings.obstacles[0];
+    obstacle.growth_rate = random.uniform(0.1, 0.5);
+    // It ends near where the clearance is least.
+    obstacle.growth_time =
+        std::max(sampledSlack(scene).time + scene.motion.epoch() - obstacle.stamp + random.uniform(-0.1, 0.1), 0.0);
+    const double least = obstacle.least_distance + sampledSlack(scene).slack;
+    if (least < 0.05) continue;
+    obstacle.least_distance = least + 1e-4;
+    const SampledSlack short_of = sampledSlack(scene);
+    if (short_of.used_margin || short_of.slack > -5e-5) continue;
+    ASSERT_FALSE(scene.check().accepted()) << n;
+    ++refused;
+    if (least < 0.2) continue;
+    obstacle.least_distance = least - obstacle.growth_rate * scene.trajectory.dt - 1e-3;
+    const CheckVerdict verdict = scene.check();
+    if (verdict.reason != CheckReason::kAccepted && verdict.reason < CheckReason::kObstacle) continue;
+    ++spared;
+    accepted += verdict.accepted() ? 1 : 0;
+  }
+  std::printf("  refused %d; with a piece's growth to spare accepted %d of %d\n", refused, accepted, spared);
+  EXPECT_GT(refused, 50);
+  EXPECT_GT(spared, 30);
+  EXPECT_EQ(accepted, spared);
+}
+
+TEST(PlanCheck, KeepsTheDoubtOfATrackBeyondTheDistance) {
+  const auto verdict = [](double position_sigma, double velocity_sigma) {
+    CheckScene scene;
+    scene.plan(straightPlan(Vector3(-6.0, 0.0, 0.0), Vector3(3.0, 0.0, 0.0), 100.0, 0.3));
+    TrackedObstacle track;
+    track.shape =
+        Superellipsoid(1, Vector3(0.0, 2.0, 0.0), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero());
+    track.stamp = 99.5;
+    track.position_sigma = position_sigma;
+    track.velocity_sigma = velocity_sigma;
+    InputParameters input;
+    input.track_sigmas = 2.0;
+    input.track_growth_time = 1.5;
+    scene.surroundings.obstacles.push_back(predictObstacle(track, input, 0.3, 0.2));
+    return scene.check().accepted();
+  };
+  // Passed at 2 s, 2.5 s after the stamp, with half a metre more than the 0.5 m without doubt.
+  EXPECT_TRUE(verdict(0.249, 0.0));
+  EXPECT_FALSE(verdict(0.251, 0.0));
+  EXPECT_TRUE(verdict(0.0, 0.249 / 1.5));
+  EXPECT_FALSE(verdict(0.0, 0.251 / 1.5));
+  EXPECT_TRUE(verdict(0.1, 0.149 / 1.5));
+  EXPECT_FALSE(verdict(0.1, 0.151 / 1.5));
+}
+
 TEST(PlanCheck, LooksAheadAtTheRestingPlace) {
   CheckScene scene;
   scene.plan(straightPlan(Vector3::Zero(), Vector3::UnitX(), 0.0, 0.3));

@@ -40,7 +40,7 @@ class SurroundingsTest : public ::testing::Test {
 TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
   Surroundings surroundings(flight_.parameters, 1, 4);
   surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch - 0.3, kEpoch);
+  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 1U);
   const MovingBody& body = flight_.problem.bodies[0];
   ASSERT_FALSE(body.isUav());
@@ -58,35 +58,12 @@ TEST_F(SurroundingsTest, TakeTracksForNewWithoutLatencyCompensation) {
   EXPECT_LT((flight_.problem.bodies[0].point(0, 0) - Vector3(10.3, -0.6, 0.15)).norm(), 1e-12);
 }
 
-TEST_F(SurroundingsTest, DropOldTracks) {
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  const double timeout = flight_.parameters.input.track_timeout;
-  const auto seenAfter = [&](double age) {
-    surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch - age)}, kEpoch, kEpoch);
-    return collected(surroundings).size();
-  };
-  EXPECT_EQ(seenAfter(timeout - 0.01), 1U);
-  EXPECT_EQ(seenAfter(timeout + 0.01), 0U);
-  EXPECT_EQ(seenAfter(0.0), 1U) << "a track that comes back counts again";
-}
-
-// One track's nonsense must not spoil the plans of all.
-TEST_F(SurroundingsTest, AreFiniteWhateverTheStamp) {
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  for (const double stamp : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
-    surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, 0, 0), stamp)}, kEpoch, kEpoch);
-    for (const MovingBody& body : collected(surroundings)) EXPECT_TRUE(body.point(3, 1).allFinite()) << stamp;
-  }
-}
-
 TEST_F(SurroundingsTest, KeepTheDistancesOfTheParameters) {
   const LimitParameters& limits = flight_.parameters.limits;
   Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 8, 0));
-  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
+  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 2U);
   for (const MovingBody& body : flight_.problem.bodies) {
     const Vector3 r = body.isUav() ? Vector3(0, -5, 0) : Vector3(-5, 0, 0);
@@ -97,11 +74,45 @@ TEST_F(SurroundingsTest, KeepTheDistancesOfTheParameters) {
   }
 }
 
+TEST_F(SurroundingsTest, KeepTheInflationOfATrackAtTheEndOfEachSegment) {
+  const LimitParameters& limits = flight_.parameters.limits;
+  Surroundings surroundings(flight_.parameters, 1, 4);
+  surroundings.setPlanning(0, flight_.problem.start);
+  TrackedObstacle doubtful = track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch - 0.4);
+  doubtful.position_sigma = 0.2;
+  doubtful.velocity_sigma = 0.1;
+  surroundings.setObstacles({doubtful}, kEpoch);
+  ASSERT_EQ(collected(surroundings).size(), 1U);
+  const MovingBody& body = flight_.problem.bodies[0];
+  const TrackInflation inflation = inflationOf(doubtful, flight_.parameters.input);
+  const Vector3 r(-5, 0, 0);
+  const double level = std::exp(0.5 * flight_.parameters.cost.epsilon_s);
+  const double clearance = 5.0 - level - limits.uav_radius - limits.tracking_margin;
+  EXPECT_NEAR(body.supportingHalfSpace(r).clearance(r), clearance - inflation.at(0.4), 1e-12);
+  for (int k = 0; k < kHorizon; ++k) {
+    const double end = 0.4 + (k + 1) * flight_.problem.dt;
+    EXPECT_NEAR(segmentClearance(body, k, {r, r, r, r}).clearance, clearance - inflation.at(end), 1e-12) << k;
+  }
+  EXPECT_GT(inflation.at(1.0), inflation.at(0.4) + 0.1);
+}
+
+TEST_F(SurroundingsTest, HoldWhatOnlyItsInflationBringsWithinReach) {
+  const double reach = flight_.parameters.limits.max_speed * kHorizon * flight_.problem.dt;
+  Surroundings surroundings(flight_.parameters, 1, 4);
+  surroundings.setPlanning(0, flight_.problem.start);
+  TrackedObstacle doubtful = track(Vector3(reach + 3.0, 0, 0), Vector3::Zero(), kEpoch);
+  surroundings.setObstacles({doubtful}, kEpoch);
+  EXPECT_EQ(collected(surroundings).size(), 0U);
+  doubtful.velocity_sigma = 1.0;
+  surroundings.setObstacles({doubtful}, kEpoch);
+  EXPECT_EQ(collected(surroundings).size(), 1U);
+}
+
 TEST_F(SurroundingsTest, WaiveTheMarginWhereTheStartIsTooClose) {
   Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 2.1, 0));
-  surroundings.setObstacles({track(Vector3(1.4, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
+  surroundings.setObstacles({track(Vector3(1.4, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 2U);
   for (const MovingBody& body : flight_.problem.bodies) {
     EXPECT_GT(body.relief(0), 0.05);
@@ -116,7 +127,7 @@ TEST_F(SurroundingsTest, HoldOnlyWhatCanBeReached) {
     Surroundings surroundings(flight_.parameters, 2, 4);
     surroundings.setPlanning(0, flight_.problem.start);
     surroundings.setPlan(1, resting(Vector3(0, distance + 2.0, 0)), kEpoch);
-    surroundings.setObstacles({track(Vector3(distance + 1.0, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
+    surroundings.setObstacles({track(Vector3(distance + 1.0, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
     return collected(surroundings).size();
   };
   EXPECT_EQ(bodiesWith(reach - 0.1), 2U);
@@ -128,7 +139,7 @@ TEST_F(SurroundingsTest, HoldWhatComesWithinReach) {
   surroundings.setPlanning(0, flight_.problem.start);
   // Both are far away now and here within the horizon.
   surroundings.setPlan(1, straightPlan(Vector3(0, 50, 0), Vector3(0, -8, 0), kEpoch, flight_.problem.dt), kEpoch);
-  surroundings.setObstacles({track(Vector3(50, 0, 0), Vector3(-8, 0, 0), kEpoch)}, kEpoch, kEpoch);
+  surroundings.setObstacles({track(Vector3(50, 0, 0), Vector3(-8, 0, 0), kEpoch)}, kEpoch);
   EXPECT_EQ(collected(surroundings).size(), 2U);
 }
 
@@ -194,7 +205,7 @@ TEST_F(SurroundingsTest, AreEmptyWithoutAvoidance) {
   Surroundings surroundings(flight_.parameters, 2, 4);
   surroundings.setPlanning(0, flight_.problem.start);
   surroundings.setResting(1, Vector3(0, 1, 0));
-  surroundings.setObstacles({track(Vector3(1, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch, kEpoch);
+  surroundings.setObstacles({track(Vector3(1, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   EXPECT_TRUE(collected(surroundings).empty());
 }
 

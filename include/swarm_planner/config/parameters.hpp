@@ -84,14 +84,19 @@ struct ComputeParameters {
   int threads = 1;  ///< UAVs planned at the same time; the plans do not depend on it
 };
 
+/// Clocks of different computers let a stamp lie so far in the future without being wrong [s].
+constexpr double kClockTolerance = 0.05;
+
 /// Inputs of the planner and how long they are believed.
 struct InputParameters {
-  double odometry_timeout = 0.5;  ///< older odometry is not used [s]
-  double track_timeout = 1.0;     ///< an obstacle track is predicted for at most so long [s]
-  double tracking_time = 0.5;     ///< time constant with which a vehicle's tracking deviation decays [s]
-  double odometry_noise = 0.15;   ///< deviations up to this may be noise alone [m]
-  int lost_setpoints = 2;         ///< so many trajectories in a row may fail to reach a vehicle
-  bool autostart = true;          ///< start as soon as every UAV's odometry has arrived
+  double odometry_timeout = 0.5;   ///< older odometry is not used [s]
+  double track_timeout = 1.0;      ///< an obstacle track is predicted for at most so long [s]
+  double track_sigmas = 3.0;       ///< how many standard deviations of a track are kept clear of
+  double track_growth_time = 2.0;  ///< the velocity of a track is in doubt for at most so long after its stamp [s]
+  double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]
+  double odometry_noise = 0.15;    ///< deviations up to this may be noise alone [m]
+  int lost_setpoints = 2;          ///< so many trajectories in a row may fail to reach a vehicle
+  bool autostart = true;           ///< start as soon as every UAV's odometry has arrived
 };
 
 /// The simulated quadrotor's controller, sensors and rates, the wind, and the links between vehicles and ground

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "swarm_planner/obstacles/superellipsoid.hpp"
@@ -17,13 +18,20 @@ struct HalfSpace {
   double clearance(const Vector3& r) const { return n.dot(r) - offset; }
 };
 
+/// How the distance to keep from a body grows over the horizon, because its prediction gets worse [m].
+struct DistanceGrowth {
+  double per_stage = 0.0;
+  double limit = 0.0;  ///< growth ends here
+};
+
 /// Something that a UAV keeps clear of over its horizon: an obstacle, eq. (7), or another UAV's plan, eq. (14).
 /// Both are a convex set about a reference point that moves along known control points.
 class MovingBody {
  public:
   /// An obstacle, given where it is at the horizon's start; `distance` [m] is to be kept from its surface
-  /// S = `level` (e^eps_s). The obstacle must outlive the body.
-  static MovingBody fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance);
+  /// S = `level` (e^eps_s) at the horizon's start, more by `growth` later. The obstacle must outlive the body.
+  static MovingBody fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
+                                 const DistanceGrowth& growth = {});
   /// Another UAV; the pair ellipsoid has the semi-axes `horizontal` and `vertical` [m]. `apart`: unit vector along
   /// which the two part where they coincide, opposite for the two of a pair. The motion must outlive the body.
   static MovingBody fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart);
@@ -37,6 +45,10 @@ class MovingBody {
   void relieve(const Vector3& r, double margin);
   /// What is waived on segment k [m].
   double relief(int k) const { return k < kReliefStages ? relief_ * (kReliefStages - k) / kReliefStages : 0.0; }
+  /// By how much more the distance is kept on segment k than at the horizon's start: as much as at its end [m].
+  double growth(int k) const { return std::min((k + 1) * growth_.per_stage, growth_.limit); }
+  /// The body with the distance that is kept on segment k, all along.
+  MovingBody grownTo(int k) const;
 
   bool isUav() const { return motion_ != nullptr; }
   const Superellipsoid* obstacle() const { return obstacle_; }
@@ -46,17 +58,17 @@ class MovingBody {
     return motion_ != nullptr ? motion_->point(k, i) : obstacle_->center() + (k + i / 3.0) * step_;
   }
 
-  /// A half-space whose boundary supports the set, grown by the distance to keep, towards `r`. Whatever lies in
-  /// it is clear of the body.
+  /// A half-space whose boundary supports the set, grown by the distance to keep at the horizon's start, towards `r`.
+  /// Whatever lies in it is clear of the body then.
   HalfSpace supportingHalfSpace(const Vector3& r) const;
 
   /// Contains everything that must be kept clear of over the whole horizon [m].
   const Box& box() const { return box_; }
-  /// Half extents of a box about the reference point that contains what must be kept clear of [m].
+  /// Half extents of a box about the reference point that contains what must be kept clear of at any time [m].
   const Vector3& extent() const { return extent_; }
-  /// Radius about the reference point that contains what must be kept clear of [m].
+  /// Radius about the reference point that contains what must be kept clear of at any time [m].
   double radius() const { return radius_; }
-  /// The distance to keep, without the body's own size [m]; of a UAV the shorter semi-axis.
+  /// The distance to keep at the horizon's start, without the body's own size [m]; of a UAV the shorter semi-axis.
   double distance() const { return distance_; }
 
  private:
@@ -68,6 +80,7 @@ class MovingBody {
   std::uint32_t identity_ = 0;
   double level_ = 1.0;
   double distance_ = 0.0;
+  DistanceGrowth growth_;
   Vector3 scale_ = Vector3::Ones();  ///< shorter semi-axis over each semi-axis of a pair ellipsoid
   Vector3 extent_ = Vector3::Zero();
   double radius_ = 0.0;
@@ -92,8 +105,8 @@ inline bool isBeyond(const MovingBody& body, const SegmentPoints& relative, doub
   return away.cwiseMax(0.0).squaredNorm() > radius * radius;
 }
 
-/// How segment k lies to a body: the half-space, less what is waived, towards its middle and the least clearance of its
-/// control points.
+/// How segment k lies to a body: the half-space, with the growth until then and less what is waived, towards its middle
+/// and the least clearance of its control points.
 struct SegmentClearance {
   HalfSpace half_space;
   double clearance = 0.0;  ///< lower bound over the whole segment [m], negative if violated

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/ros/odometry_conversion.hpp"
 #include "swarm_planner/ros/track_conversion.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
@@ -38,30 +38,29 @@ struct TrackInput {
 /// values are copied, so neither side waits for work of the other.
 class InputStore {
  public:
-  /// `track_timeout`: a track not seen for so long is forgotten [s].
+  /// `track_timeout` [s]: of TrackMemory.
   InputStore(std::size_t uavs, double track_timeout);
 
   /// Ignores a sample that is older than the one it has: messages may overtake each other.
   void accept(std::size_t uav, const OdometrySample& sample);
   void reject(std::size_t uav, OdometryFault fault, const std::string& why);
-  /// Newer tracks replace older ones of the same id; others stay until they are too old.
+  /// Tracks of several sources, or of an array that does not repeat every obstacle, add up as in TrackMemory.
   void accept(const TrackBatch& batch);
 
   /// Forgets every sample and track (time has jumped back). Counts stay.
   void clear();
 
-  /// The snapshot at `now` [s], without tracks that are too old. Its time is at least that of the newest sample, which
-  /// may be ahead of `now` by kFutureTolerance.
+  /// The snapshot at `now` [s], without tracks that are too old. Its time is at least that of the newest sample and
+  /// track, which may be ahead of `now` by kFutureTolerance.
   void fill(double now, Snapshot& snapshot);
 
   std::vector<UavInput> uavs() const;
   TrackInput tracks() const;
 
  private:
-  const double track_timeout_;
   mutable std::mutex mutex_;
   std::vector<UavInput> uavs_;
-  std::map<int, TrackedObstacle> tracks_;
+  TrackMemory tracks_;
   TrackInput track_input_;
 };
 

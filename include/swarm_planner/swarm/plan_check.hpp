@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
 
 namespace swarm_planner {
@@ -54,16 +55,22 @@ struct CheckLimits {
   double look_ahead = 20.0;  ///< how long the resting place must stay clear of obstacles [s]
 };
 
-/// An obstacle with constant velocity, and the distance to keep from its surface S = 1 at time t:
-/// least_distance + margin + growth_rate (t - stamp).
+/// An obstacle with constant velocity, and the distance to keep from its surface S = 1 at time t >= stamp:
+/// least_distance + margin + growth_rate min(t - stamp, growth_time).
 struct PredictedObstacle {
   const Superellipsoid* body = nullptr;                          ///< its centre at `stamp`
   double stamp = 0.0;                                            ///< [s]
   double least_distance = 0.0;                                   ///< >= 0 [m]
   double margin = 0.0;                                           ///< [m]
   double growth_rate = 0.0;                                      ///< >= 0; how fast the prediction may turn wrong [m/s]
+  double growth_time = std::numeric_limits<double>::infinity();  ///< >= 0; how long after the stamp it does [s]
   double valid_until = std::numeric_limits<double>::infinity();  ///< not looked at later [s]
 };
+
+/// What a track demands: `least` [m], the hard distance, plus its inflation; `margin` [m] besides. The track must
+/// outlive the prediction.
+PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least,
+                                  double margin);
 
 /// A motion that another UAV may be flying.
 struct OtherMotion {

@@ -20,7 +20,7 @@ class Surroundings {
 
   /// The cycle's epoch [s]; obstacles and motions are set after it.
   void setEpoch(double epoch) { epoch_ = epoch; }
-  /// Predicts the tracks to the epoch. A track older than track_timeout at `now` is left out.
+  /// Predicts the tracks, which have to outlive the cycle, to the epoch. `now`: of the cycle [s].
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
   /// Nothing is known of the UAV; others need not keep clear of it.
   void setUnknown(std::size_t uav);
@@ -46,6 +46,11 @@ class Surroundings {
   void collect(std::size_t uav, CheckSurroundings& surroundings) const;
 
  private:
+  struct PredictedTrack {
+    Superellipsoid shape;   ///< at the epoch
+    double inflation;       ///< at the epoch [m]
+    DistanceGrowth growth;  ///< of the inflation from then on
+  };
   /// What a UAV may be flying.
   struct Motions {
     const CommittedMotion* newest = nullptr;  ///< null: unknown
@@ -61,7 +66,7 @@ class Surroundings {
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
   double epoch_ = 0.0;                     ///< of the cycle [s]
-  std::vector<Superellipsoid> obstacles_;  ///< at the epoch
+  std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedObstacle> checked_obstacles_;
   std::vector<Motions> motions_;
   std::vector<PredictedMotion> predictions_;  ///< of the newest motions

@@ -27,6 +27,8 @@ struct UavMeasurement {
 struct Snapshot {
   double now = 0.0;                  ///< [s]
   std::vector<UavMeasurement> uavs;  ///< one per UAV, in the scenario's order
+  /// What trackers report; need not be every obstacle, nor differ from the cycle before. Obstacles that are missing are
+  /// remembered for track_timeout.
   std::vector<TrackedObstacle> obstacles;
 };
 
@@ -87,8 +89,9 @@ struct CycleReport {
   double epoch = 0.0;      ///< [s]
   double time_zero = 0.0;  ///< epoch of t = 0 of the run; valid if started
   bool started = false;
-  bool out_of_time = false;  ///< some UAVs were not planned for within the budget
-  double cycle_time = 0.0;  ///< snapshot in, plans out [s] of wall clock
+  bool out_of_time = false;        ///< some UAVs were not planned for within the budget
+  double cycle_time = 0.0;         ///< snapshot in, plans out [s] of wall clock
+  std::size_t refused_tracks = 0;  ///< of the snapshot: not finite or from the future (see TrackMemory)
   std::vector<UavReport> uavs;
 };
 
@@ -121,7 +124,7 @@ class SwarmPlanner {
   /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
 
-  /// Forgets plans and time zero (a backward jump of time). References stay as given, also those set later.
+  /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.
   void reset();
 
  private:
