@@ -140,6 +140,9 @@ void addCost(TableBuilder& table) {
       "in eta's term a velocity error counts as the way it makes in this time");
   table.withRule();
   table.number(
+      "stop_weight", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.stop_weight; },
+      "weight of velocity and acceleration at a plan's end, which is to be nearly at rest");
+  table.number(
       "robustness_gain", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.robustness_gain; },
       "q of (9), weight of the robustness function; 0 switches it off");
   table.number(

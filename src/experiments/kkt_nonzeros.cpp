@@ -52,7 +52,8 @@ RowCount countRows(const Mission& mission) {
 
 long long kktNonzeros(const Mission& mission) {
   const RowCount rows = countRows(mission);
-  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + rows.rows;
+  const long long last_acceleration = kAxes;
+  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + last_acceleration + rows.rows;
   const long long dynamics = kHorizon * (9 + 9) + (kHorizon - 1) * 18;
   const long long inequalities = rows.entries + 2 * rows.rows;
   return hessian + 2 * dynamics + 2 * inequalities;

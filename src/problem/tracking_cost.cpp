@@ -28,28 +28,38 @@ void forEachObstacleNear(const UavProblem& problem, int stage, const Vector3& p,
   }
 }
 
-/// A state's deviations from the reference and from the target.
+/// A state's deviations from the reference and from the target, at the last stage from rest.
 struct Deviation {
   Deviation(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x)
       : across(frame.horizontal.dot(x.p - frame.foot.position)),
         above(frame.vertical.dot(x.p - frame.foot.position)),
         behind(x.p - problem.targets[static_cast<std::size_t>(stage)].p),
-        slower(x.v - problem.targets[static_cast<std::size_t>(stage)].v) {}
+        at_end(stage == kHorizon),
+        faster(x.v - (at_end ? Vector3(Vector3::Zero()) : problem.targets[static_cast<std::size_t>(stage)].v)),
+        acceleration(x.a) {}
 
-  /// Cost (16) without robustness term and jerk.
-  double cost(const CostParameters& weights) const {
-    return weights.alpha * across * across + weights.beta * above * above + weights.eta * behind.squaredNorm() +
-           weights.eta * weights.velocity_time * weights.velocity_time * slower.squaredNorm();
+  /// Cost (16) without robustness term and jerk; at the last stage with rest instead of the target's velocity.
+  double cost(const Parameters& parameters) const {
+    const CostParameters& weights = parameters.cost;
+    const double squared_time = weights.velocity_time * weights.velocity_time;
+    const double position =
+        weights.alpha * across * across + weights.beta * above * above + weights.eta * behind.squaredNorm();
+    if (!at_end) return position + weights.eta * squared_time * faster.squaredNorm();
+    const double third = parameters.time.sampling_time / 3.0;
+    return position +
+           weights.stop_weight * squared_time * (faster.squaredNorm() + third * third * acceleration.squaredNorm());
   }
 
   double across;
   double above;
   Vector3 behind;
-  Vector3 slower;
+  bool at_end;  ///< of the horizon
+  Vector3 faster;
+  Vector3 acceleration;
 };
 
 double stageCostValue(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x) {
-  double value = Deviation(problem, stage, frame, x).cost(problem.parameters->cost);
+  double value = Deviation(problem, stage, frame, x).cost(*problem.parameters);
   forEachObstacleNear(
       problem, stage, x.p,
       [&](const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
@@ -88,11 +98,11 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
   const Deviation deviation(problem, stage, frame, x);
 
   StageCost cost;
-  cost.value = dt * deviation.cost(weights);
+  cost.value = dt * deviation.cost(*problem.parameters);
   cost.position_gradient = 2.0 * dt *
                            (weights.alpha * deviation.across * frame.horizontal +
                             weights.beta * deviation.above * frame.vertical + weights.eta * deviation.behind);
-  cost.velocity_gradient = velocityWeight(*problem.parameters) * deviation.slower;
+  cost.velocity_gradient = velocityWeight(*problem.parameters, stage) * deviation.faster;
   cost.position_hessian =
       2.0 * dt *
       (weights.alpha * frame.horizontal * frame.horizontal.transpose() +
@@ -109,9 +119,16 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
   return cost;
 }
 
-double velocityWeight(const Parameters& parameters) {
+double velocityWeight(const Parameters& parameters, int stage) {
   const CostParameters& weights = parameters.cost;
-  return 2.0 * parameters.time.sampling_time * weights.eta * weights.velocity_time * weights.velocity_time;
+  const double weight = stage == kHorizon ? weights.stop_weight : weights.eta;
+  return 2.0 * parameters.time.sampling_time * weight * weights.velocity_time * weights.velocity_time;
+}
+
+double accelerationWeight(const Parameters& parameters, int stage) {
+  if (stage != kHorizon) return 0.0;
+  const double third = parameters.time.sampling_time / 3.0;
+  return velocityWeight(parameters, stage) * third * third;
 }
 
 double jerkWeight(const Parameters& parameters) { return 2.0 * parameters.time.sampling_time * parameters.cost.zeta; }

@@ -61,6 +61,8 @@ GeneratedTables::GeneratedTables(const std::vector<QpModel>& models) {
     parameters.along = model.along_weight;
     parameters.across = model.across_weight;
     parameters.velocity = model.velocity_weight;
+    parameters.final_velocity = model.final_velocity_weight;
+    parameters.final_acceleration = model.final_acceleration_weight;
     parameters.jerk = model.jerk_weight;
     parameters.drag = model.drag_over_mass;
     parameters.slack_linear = model.slack_linear;

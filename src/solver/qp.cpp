@@ -20,7 +20,8 @@ std::array<OutputGains, kOutputCount> QpModel::outputs() const {
 
 bool QpModel::operator==(const QpModel& other) const {
   return dt == other.dt && along_weight == other.along_weight && across_weight == other.across_weight &&
-         velocity_weight == other.velocity_weight && jerk_weight == other.jerk_weight &&
+         velocity_weight == other.velocity_weight && final_velocity_weight == other.final_velocity_weight &&
+         final_acceleration_weight == other.final_acceleration_weight && jerk_weight == other.jerk_weight &&
          drag_over_mass == other.drag_over_mass && slack_linear == other.slack_linear &&
          slack_quadratic == other.slack_quadratic;
 }
@@ -83,8 +84,10 @@ double Qp::objective(const Trajectory& plan) const {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = stages[k];
     const KinematicState& x = plan.knots[k];
+    const int number = static_cast<int>(k);
     smooth += 0.5 * weights.dot((to_axes * x.p).cwiseAbs2()) + stage.position_gradient.dot(x.p) +
-              0.5 * model.velocity_weight * x.v.squaredNorm() + stage.velocity_gradient.dot(x.v) +
+              0.5 * model.velocityWeight(number) * x.v.squaredNorm() + stage.velocity_gradient.dot(x.v) +
+              0.5 * model.accelerationWeight(number) * x.a.squaredNorm() +
               0.5 * model.jerk_weight * plan.jerks[k - 1].squaredNorm();
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const QpRow& row = stage.rows[i];

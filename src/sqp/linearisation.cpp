@@ -160,7 +160,7 @@ void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
     addCurvatures(cost.robustness_hessian, k, qp);
     QpStage& stage = qp.stages[i];
     stage.position_gradient = cost.position_gradient - qp.positionHessian(k) * x.p;
-    stage.velocity_gradient = cost.velocity_gradient - qp.model.velocity_weight * x.v;
+    stage.velocity_gradient = cost.velocity_gradient - qp.model.velocityWeight(k) * x.v;
   }
 }
 
@@ -173,7 +173,9 @@ QpModels makeQpModels(const Parameters& parameters) {
   model.dt = dt;
   model.along_weight = 2.0 * dt * cost.eta;
   model.across_weight = 2.0 * dt * (std::max(cost.alpha, cost.beta) + cost.eta);
-  model.velocity_weight = velocityWeight(parameters);
+  model.velocity_weight = velocityWeight(parameters, 1);
+  model.final_velocity_weight = velocityWeight(parameters, kHorizon);
+  model.final_acceleration_weight = accelerationWeight(parameters, kHorizon);
   model.jerk_weight = jerkWeight(parameters);
   model.drag_over_mass = parameters.vehicle.dragOverMass().mean();
   model.slack_linear = parameters.sqp.slack_linear;

@@ -13,7 +13,7 @@ namespace swarm_planner {
 /// the paper's measure of a problem's size; the planner itself sets only the rows of what can be reached.
 ///
 /// Per stage, with R rows in all:
-///   H: position 3 x 3, velocity 3, jerk 3, and 1 per slack;
+///   H: position 3 x 3, velocity 3, jerk 3, and 1 per slack; at the last stage also acceleration 3;
 ///   A: x_{k+1} = propagate(x_k, u_k): 9 for x_{k+1}, 9 for u_k and, but for the known x_0, 18 for x_k;
 ///   G: n . y + s >= d and s >= 0, where y is made of up to three parts of the state: 3 entries per part that it has
 ///      (1 where n is an axis), 1 for the slack, 1 for its sign.

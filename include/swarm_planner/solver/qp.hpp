@@ -36,15 +36,20 @@ inline Vector3 outputValue(const OutputGains& gains, const KinematicState& x) {
 
 /// What stays the same from QP to QP, so that a solver can compute tables from it beforehand.
 struct QpModel {
-  double dt = 0.0;               ///< [s]
-  double along_weight = 0.0;     ///< of 1/2 (first axis . p)^2, > 0
-  double across_weight = 0.0;    ///< of 1/2 (second axis . p)^2 and 1/2 (third axis . p)^2, > 0
-  double velocity_weight = 0.0;  ///< of 1/2 |v|^2, >= 0
-  double jerk_weight = 0.0;      ///< of 1/2 |jerk|^2, > 0
-  double drag_over_mass = 0.0;   ///< of the thrust output [1/s]
-  double slack_linear = 0.0;     ///< > 0
-  double slack_quadratic = 0.0;  ///< > 0
+  double dt = 0.0;                         ///< [s]
+  double along_weight = 0.0;               ///< of 1/2 (first axis . p)^2, > 0
+  double across_weight = 0.0;              ///< of 1/2 (second axis . p)^2 and 1/2 (third axis . p)^2, > 0
+  double velocity_weight = 0.0;            ///< of 1/2 |v|^2 at the stages before the last, >= 0
+  double final_velocity_weight = 0.0;      ///< of 1/2 |v|^2 at the last stage, >= 0
+  double final_acceleration_weight = 0.0;  ///< of 1/2 |a|^2 at the last stage, >= 0; there is none before
+  double jerk_weight = 0.0;                ///< of 1/2 |jerk|^2, > 0
+  double drag_over_mass = 0.0;             ///< of the thrust output [1/s]
+  double slack_linear = 0.0;               ///< > 0
+  double slack_quadratic = 0.0;            ///< > 0
 
+  /// Weights of 1/2 |v|^2 and 1/2 |a|^2 at stage 1..N.
+  double velocityWeight(int stage) const { return stage == kHorizon ? final_velocity_weight : velocity_weight; }
+  double accelerationWeight(int stage) const { return stage == kHorizon ? final_acceleration_weight : 0.0; }
   std::array<OutputGains, kOutputCount> outputs() const;
   bool operator==(const QpModel& other) const;
 };
