@@ -158,7 +158,7 @@ void addCost(TableBuilder& table) {
   table.withRule();
   table.number(
       "stop_weight", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.stop_weight; },
-      "weight of the velocity and the acceleration at a plan's end, which shall be nearly at rest");
+      "weight of velocity and acceleration at a plan's end, which is to be nearly at rest");
   table.number(
       "robustness_gain", "", Range::atLeast(0.0), [](P& p) -> double& { return p.cost.robustness_gain; },
       "q of (9), weight of the robustness function; 0 switches it off");

@@ -39,13 +39,15 @@ struct Deviation {
         acceleration(x.a) {}
 
   /// Cost (16) without robustness term and jerk; at the last stage with rest instead of the target's velocity.
-  double cost(const CostParameters& weights) const {
+  double cost(const Parameters& parameters) const {
+    const CostParameters& weights = parameters.cost;
     const double squared_time = weights.velocity_time * weights.velocity_time;
     const double position =
         weights.alpha * across * across + weights.beta * above * above + weights.eta * behind.squaredNorm();
     if (!at_end) return position + weights.eta * squared_time * faster.squaredNorm();
+    const double third = parameters.time.sampling_time / 3.0;
     return position +
-           weights.stop_weight * squared_time * (faster.squaredNorm() + squared_time * acceleration.squaredNorm());
+           weights.stop_weight * squared_time * (faster.squaredNorm() + third * third * acceleration.squaredNorm());
   }
 
   double across;
@@ -57,7 +59,7 @@ struct Deviation {
 };
 
 double stageCostValue(const UavProblem& problem, int stage, const StageFrame& frame, const KinematicState& x) {
-  double value = Deviation(problem, stage, frame, x).cost(problem.parameters->cost);
+  double value = Deviation(problem, stage, frame, x).cost(*problem.parameters);
   forEachObstacleNear(
       problem, stage, x.p,
       [&](const Superellipsoid& obstacle, const Vector3& point, const RobustnessParameters& parameters) {
@@ -96,7 +98,7 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
   const Deviation deviation(problem, stage, frame, x);
 
   StageCost cost;
-  cost.value = dt * deviation.cost(weights);
+  cost.value = dt * deviation.cost(*problem.parameters);
   cost.position_gradient = 2.0 * dt *
                            (weights.alpha * deviation.across * frame.horizontal +
                             weights.beta * deviation.above * frame.vertical + weights.eta * deviation.behind);
@@ -125,7 +127,8 @@ double velocityWeight(const Parameters& parameters, int stage) {
 
 double accelerationWeight(const Parameters& parameters, int stage) {
   if (stage != kHorizon) return 0.0;
-  return velocityWeight(parameters, stage) * parameters.cost.velocity_time * parameters.cost.velocity_time;
+  const double third = parameters.time.sampling_time / 3.0;
+  return velocityWeight(parameters, stage) * third * third;
 }
 
 double jerkWeight(const Parameters& parameters) { return 2.0 * parameters.time.sampling_time * parameters.cost.zeta; }

@@ -39,6 +39,7 @@ const Place kPlaces[] = {
     {"eta", 0.53, [](const Parameters& p) -> ParameterValue { return p.cost.eta; }},
     {"zeta", 0.54, [](const Parameters& p) -> ParameterValue { return p.cost.zeta; }},
     {"velocity_time", 0.55, [](const Parameters& p) -> ParameterValue { return p.cost.velocity_time; }},
+    {"stop_weight", 0.555, [](const Parameters& p) -> ParameterValue { return p.cost.stop_weight; }},
     {"robustness_gain", 0.56, [](const Parameters& p) -> ParameterValue { return p.cost.robustness_gain; }},
     {"robustness_inner", 1.57, [](const Parameters& p) -> ParameterValue { return p.cost.robustness_inner; }},
     {"robustness_outer", 1.58, [](const Parameters& p) -> ParameterValue { return p.cost.robustness_outer; }},

@@ -38,8 +38,9 @@ class KktCount {
         const KinematicState next = propagate(x, jerk, 0.3);
         for (const Vector3& part : {next.p, next.v, next.a}) total_ += 2 * (part.array() != 0.0).count();
       }
-      total_ += 2 * 9;      // x_{k+1} itself
-      total_ += 9 + 3 + 3;  // Hessian
+      total_ += 2 * 9;                     // x_{k+1} itself
+      total_ += 9 + 3 + 3;                 // Hessian
+      if (k == kHorizon - 1) total_ += 3;  // that of the last acceleration
     }
   }
   long long total() const { return total_; }

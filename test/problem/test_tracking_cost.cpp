@@ -27,12 +27,16 @@ KinematicState randomState(Random& random, const Vector3& near) {
   return {near + random.vector(-3.0, 3.0), random.vector(-5.0, 5.0), random.vector(-3.0, 3.0)};
 }
 
+/// Every other time the last stage, whose cost differs.
+int randomStage(Random& random) { return random.integer(0, 1) == 0 ? kHorizon : random.integer(1, kHorizon - 1); }
+
 void randomiseWeights(Random& random, CostParameters& cost) {
   cost.alpha = random.uniform(0.1, 2.0);
   cost.beta = random.uniform(0.1, 2.0);
   cost.eta = random.uniform(0.01, 1.0);
   cost.zeta = random.uniform(0.01, 1.0);
   cost.velocity_time = random.uniform(0.2, 2.0);
+  cost.stop_weight = random.uniform(0.0, 10.0);
 }
 
 /// Holds the derivatives of one stage's cost against central differences of its value.
@@ -41,11 +45,15 @@ void expectDerivatives(const UavProblem& problem, int stage, const KinematicStat
   const StageFrame frame = makeStageFrame(foot);
   const StageCost cost = stageCost(problem, stage, frame, x);
   const auto ofPosition = [&](const Vector3& p) { return stageCost(problem, stage, frame, {p, x.v, x.a}).value; };
+  const auto ofAcceleration = [&](const Vector3& a) { return stageCost(problem, stage, frame, {x.p, x.v, a}).value; };
   const auto ofVelocity = [&](const Vector3& v) { return stageCost(problem, stage, frame, {x.p, v, x.a}).value; };
   // What rounding leaves of a difference: the value's last digit over the step.
   const double tolerance = 1e-6 * (1.0 + std::abs(cost.value) / scale);
   EXPECT_LT((centralGradient(ofPosition, x.p, scale) - cost.position_gradient).norm(), tolerance);
   EXPECT_LT((centralGradient(ofVelocity, x.v, 1.0) - cost.velocity_gradient).norm(),
+            1e-6 * (1.0 + std::abs(cost.value)));
+  const Vector3 acceleration_gradient = accelerationWeight(*problem.parameters, stage) * x.a;
+  EXPECT_LT((centralGradient(ofAcceleration, x.a, 1.0) - acceleration_gradient).norm(),
             1e-6 * (1.0 + std::abs(cost.value)));
 }
 
@@ -56,7 +64,7 @@ TEST_P(TrackingCostOnPath, HasTheGradientOfItsValue) {
   for (int trial = 0; trial < 200; ++trial) {
     FlightProblem flight(GetParam(), 3.0, {GetParam().front(), Vector3::Zero(), Vector3::Zero()});
     randomiseWeights(random, flight.parameters.cost);
-    const int stage = random.integer(1, kHorizon);
+    const int stage = randomStage(random);
     const double s = random.uniform(0.0, 8.0);
     flight.problem.progress = s;
     const KinematicState x = randomState(random, flight.problem.path->at(s).position);
@@ -71,15 +79,17 @@ TEST_P(TrackingCostOnPath, HasTheExactHessianWithoutObstacles) {
     FlightProblem flight(GetParam(), 3.0, {GetParam().front(), Vector3::Zero(), Vector3::Zero()});
     randomiseWeights(random, flight.parameters.cost);
     const UavProblem& problem = flight.problem;
-    const int stage = random.integer(1, kHorizon);
+    const int stage = randomStage(random);
     const KinematicState x = randomState(random, problem.path->at(random.uniform(0.0, 8.0)).position);
     const StageFrame frame = makeStageFrame(problem.path->nearest(x.p, problem.progress));
     const StageCost cost = stageCost(problem, stage, frame, x);
     const KinematicState moved = randomState(random, x.p);
     const Vector3 dp = moved.p - x.p;
     const Vector3 dv = moved.v - x.v;
-    const double model = cost.value + cost.position_gradient.dot(dp) + 0.5 * dp.dot(cost.position_hessian * dp) +
-                         cost.velocity_gradient.dot(dv) + 0.5 * velocityWeight(*problem.parameters) * dv.squaredNorm();
+    const double model =
+        cost.value + cost.position_gradient.dot(dp) + 0.5 * dp.dot(cost.position_hessian * dp) +
+        cost.velocity_gradient.dot(dv) + 0.5 * velocityWeight(*problem.parameters, stage) * dv.squaredNorm() +
+        0.5 * accelerationWeight(*problem.parameters, stage) * (moved.a.squaredNorm() - x.a.squaredNorm());
     EXPECT_NEAR(model, stageCost(problem, stage, frame, moved).value, 1e-11 * (1.0 + cost.value + model));
   }
 }
@@ -99,6 +109,7 @@ TEST_P(TrackingCostOnPath, FramesAreOrthonormalWithHorizontalAcross) {
 
 INSTANTIATE_TEST_SUITE_P(Paths, TrackingCostOnPath, ::testing::Values(kLineAlongX, kCorner, kVertical));
 
+// But for the last stage, where plans are held to rest instead of to the target's velocity.
 TEST(TrackingCost, OfALineAlongXIsThatOfThePaper) {
   Random random(4);
   constexpr double kYd = 100.0;
@@ -116,7 +127,13 @@ TEST(TrackingCost, OfALineAlongXIsThatOfThePaper) {
       const Vector3 slower = weights.velocity_time * (x.v - Vector3(3, 0, 0));
       const double rate = weights.zeta * plan.jerks[k - 1].squaredNorm();
       sum += weights.alpha * std::pow(x.p.y() - kYd, 2) + weights.beta * std::pow(x.p.z() - kZd, 2) +
-             weights.eta * ((x.p - target).squaredNorm() + slower.squaredNorm()) + rate;
+             weights.eta * (x.p - target).squaredNorm() + rate;
+      if (k < kHorizon) {
+        sum += weights.eta * slower.squaredNorm();
+      } else {
+        sum += weights.stop_weight * std::pow(weights.velocity_time, 2) *
+               (x.v.squaredNorm() + std::pow(plan.dt / 3.0, 2) * x.a.squaredNorm());
+      }
     }
     EXPECT_NEAR(planCost(flight.problem, plan), plan.dt * sum, 1e-9 * sum);
   }
@@ -142,8 +159,15 @@ TEST(TrackingCost, WeighsVelocityAndJerkAsTheQpDoes) {
   randomiseWeights(random, flight.parameters.cost);
   const CostParameters& weights = flight.parameters.cost;
   EXPECT_DOUBLE_EQ(jerkWeight(flight.parameters), 2.0 * flight.problem.dt * weights.zeta);
-  EXPECT_DOUBLE_EQ(velocityWeight(flight.parameters),
-                   2.0 * flight.problem.dt * weights.eta * weights.velocity_time * weights.velocity_time);
+  const double squared_time = weights.velocity_time * weights.velocity_time;
+  for (const int stage : {1, kHorizon - 1}) {
+    EXPECT_DOUBLE_EQ(velocityWeight(flight.parameters, stage), 2.0 * flight.problem.dt * weights.eta * squared_time);
+    EXPECT_EQ(accelerationWeight(flight.parameters, stage), 0.0);
+  }
+  const double final_weight = 2.0 * flight.problem.dt * weights.stop_weight * squared_time;
+  EXPECT_DOUBLE_EQ(velocityWeight(flight.parameters, kHorizon), final_weight);
+  EXPECT_DOUBLE_EQ(accelerationWeight(flight.parameters, kHorizon),
+                   final_weight * std::pow(flight.problem.dt / 3.0, 2));
 }
 
 /// A UAV near moving obstacles of all kinds, where the robustness function counts.

@@ -37,16 +37,18 @@ void addOutputHessian(const OutputGains& gains, const Matrix3& outer, Matrix9& h
 void setCostHessian(const Qp& qp, std::size_t k, Matrix9& hessian) {
   hessian.setZero();
   hessian.block<3, 3>(0, 0) = qp.positionHessian(static_cast<int>(k));
-  hessian.block<3, 3>(3, 3).diagonal().setConstant(qp.model.velocity_weight);
+  hessian.block<3, 3>(3, 3).diagonal().setConstant(qp.model.velocityWeight(static_cast<int>(k)));
+  hessian.block<3, 3>(6, 6).diagonal().setConstant(qp.model.accelerationWeight(static_cast<int>(k)));
 }
 
 /// Gradients of the cost, without rows, at an iterate.
 void setCostGradients(const Qp& qp, const Trajectory& iterate, StageGradients& gradients) {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const KinematicState& x = iterate.knots[k];
-    gradients.x[k].head<3>() = qp.positionHessian(static_cast<int>(k)) * x.p + qp.stages[k].position_gradient;
-    gradients.x[k].segment<3>(3) = qp.model.velocity_weight * x.v + qp.stages[k].velocity_gradient;
-    gradients.x[k].tail<3>().setZero();
+    const int stage = static_cast<int>(k);
+    gradients.x[k].head<3>() = qp.positionHessian(stage) * x.p + qp.stages[k].position_gradient;
+    gradients.x[k].segment<3>(3) = qp.model.velocityWeight(stage) * x.v + qp.stages[k].velocity_gradient;
+    gradients.x[k].tail<3>() = qp.model.accelerationWeight(stage) * x.a;
     gradients.jerk[k - 1] = qp.model.jerk_weight * iterate.jerks[k - 1];
   }
 }

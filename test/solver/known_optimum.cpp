@@ -12,6 +12,7 @@ class Random {
  public:
   explicit Random(std::mt19937_64& engine) : engine_(engine) {}
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  bool oneIn(int n) { return uniform(0.0, n) < 1.0; }
   Matrix3 rotation() { return Eigen::AngleAxisd(uniform(-M_PI, M_PI), vector(1.0).normalized()).toRotationMatrix(); }
   Vector3 vector(double scale) { return scale * Vector3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)); }
 
@@ -55,11 +56,27 @@ QpModel randomModel(Random& random) {
   model.along_weight = random.uniform(0.05, 1.0);
   model.across_weight = random.uniform(0.05, 1.0);
   model.velocity_weight = random.uniform(0.0, 1.0);
+  model.final_velocity_weight = random.oneIn(3)   ? model.velocity_weight
+                                : random.oneIn(3) ? 0.0
+                                                  : random.uniform(0.0, 50.0);
+  model.final_acceleration_weight = random.oneIn(3) ? 0.0 : random.uniform(0.0, 50.0);
   model.jerk_weight = random.uniform(0.05, 1.0);
   model.drag_over_mass = random.uniform(0.0, 1.0);
   model.slack_linear = random.uniform(1.0, 5.0);
   model.slack_quadratic = random.uniform(1.0, 20.0);
   return model;
+}
+
+/// Puts what the weight w of the last acceleration does into jerks that were chosen without it. It adds w a_N to the
+/// acceleration's costate at every stage, so each jerk changes by -dt w a_N / jerk_weight, and a_N is what then
+/// results.
+void holdFinalAcceleration(KnownOptimum& known) {
+  const QpModel& model = known.qp.model;
+  Vector3 without = known.qp.start.a;
+  for (const Vector3& jerk : known.solution.jerks) without += model.dt * jerk;
+  const double pull = model.dt * model.final_acceleration_weight / model.jerk_weight;
+  const Vector3 final_acceleration = without / (1.0 + kHorizon * model.dt * pull);
+  for (Vector3& jerk : known.solution.jerks) jerk -= pull * final_acceleration;
 }
 
 }  // namespace
@@ -94,14 +111,16 @@ KnownOptimum makeKnownOptimum(const RowMix& mix, std::mt19937_64& engine) {
     known.solution.jerks[k - 1] =
         -(dt * dt * dt / 6.0 * costate.p + 0.5 * dt * dt * costate.v + dt * costate.a) / qp.model.jerk_weight;
   }
+  holdFinalAcceleration(known);
   Trajectory x;
   x.dt = dt;
   x.jerks = known.solution.jerks;
   rollOut(qp.start, x);
   for (std::size_t k = 1; k <= kHorizon; ++k) {
+    const int number = static_cast<int>(k);
     QpStage& stage = qp.stages[k];
-    stage.position_gradient -= qp.positionHessian(static_cast<int>(k)) * x.knots[k].p;
-    stage.velocity_gradient -= qp.model.velocity_weight * x.knots[k].v;
+    stage.position_gradient -= qp.positionHessian(number) * x.knots[k].p;
+    stage.velocity_gradient -= qp.model.velocityWeight(number) * x.knots[k].v;
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const OutputGains& gains = qp.outputs[static_cast<std::size_t>(stage.rows[i].output)];
       const Vector3 pull = known.multipliers[k][i] * stage.rows[i].n;
@@ -122,8 +141,10 @@ double objective(const Qp& qp, const std::array<Vector3, kHorizon>& jerks) {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = qp.stages[k];
     const KinematicState& s = x.knots[k];
-    sum += 0.5 * s.p.dot(qp.positionHessian(static_cast<int>(k)) * s.p) + stage.position_gradient.dot(s.p);
-    sum += 0.5 * qp.model.velocity_weight * s.v.squaredNorm() + stage.velocity_gradient.dot(s.v);
+    const int number = static_cast<int>(k);
+    sum += 0.5 * s.p.dot(qp.positionHessian(number) * s.p) + stage.position_gradient.dot(s.p);
+    sum += 0.5 * qp.model.velocityWeight(number) * s.v.squaredNorm() + stage.velocity_gradient.dot(s.v);
+    sum += 0.5 * qp.model.accelerationWeight(number) * s.a.squaredNorm();
     sum += 0.5 * qp.model.jerk_weight * jerks[k - 1].squaredNorm();
     for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
       const QpRow& row = stage.rows[i];

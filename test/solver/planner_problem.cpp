@@ -63,6 +63,14 @@ std::array<State, kHorizon + 1> rollOut(const PlannerProblem& problem, const pla
 
 Vector3 positionWeights(const planner_qp_parameters& model) { return Vector3(model.along, model.across, model.across); }
 
+double velocityWeight(const planner_qp_parameters& model, int stage) {
+  return stage == kHorizon ? model.final_velocity : model.velocity;
+}
+
+double accelerationWeight(const planner_qp_parameters& model, int stage) {
+  return stage == kHorizon ? model.final_acceleration : 0.0;
+}
+
 Vector3 linear(const PlannerProblem& problem, int k, int first) {
   const double* q = problem.state_linear[at(k - 1)].data() + first;
   return Vector3(q[0], q[1], q[2]);
@@ -144,6 +152,11 @@ planner_qp_parameters randomPlannerModel(Random& random) {
   model.along = 2.0 * model.dt * eta;
   model.across = 2.0 * model.dt * (eta + (random.integer(0, 4) == 0 ? 0.0 : random.logUniform(0.03, 5.0)));
   model.velocity = random.integer(0, 4) == 0 ? 0.0 : model.along * random.logUniform(0.01, 3.0);
+  model.final_velocity = random.integer(0, 2) == 0 ? model.velocity : model.along * random.logUniform(0.01, 1e3);
+  if (random.integer(0, 4) == 0) model.final_velocity = 0.0;
+  const double squared_time = std::pow(model.dt * random.logUniform(0.5, 10.0), 2.0);
+  model.final_acceleration =
+      random.integer(0, 2) == 0 ? 0.0 : squared_time * model.along * random.logUniform(0.01, 1e3);
   model.jerk = 2.0 * model.dt * 0.2 * std::pow(model.dt / 0.3, 6.0) * random.logUniform(0.03, 30.0);
   model.drag = random.uniform(0.0, 2.0);
   model.slack_linear = random.logUniform(1.0, 1e4);
@@ -170,7 +183,7 @@ PlannerProblem randomPlannerProblem(const planner_qp_parameters& model, Random& 
     State reference;
     reference.p.x() = speed * model.dt * k;
     reference.v.x() = speed;
-    const Vector3 p = positionWeights(model).cwiseProduct(reference.p), v = model.velocity * reference.v;
+    const Vector3 p = positionWeights(model).cwiseProduct(reference.p), v = velocityWeight(model, k) * reference.v;
     for (int i = 0; i < 3; ++i) {
       problem.state_linear[at(k - 1)][at(i)] = -p(i);
       problem.state_linear[at(k - 1)][at(3 + i)] = -v(i);
@@ -215,10 +228,11 @@ PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer)
   std::array<State, kHorizon + 1> g, size;  // gradients in the stage's state, and the sizes of their terms
   double outputs = 1.0;
   for (int k = 1; k <= kHorizon; ++k) {
-    const Vector3 p = positionWeights(m).cwiseProduct(x[at(k)].p), v = m.velocity * x[at(k)].v;
-    g[at(k)] = {p + linear(problem, k, 0), v + linear(problem, k, 3), Vector3::Zero()};
+    const Vector3 p = positionWeights(m).cwiseProduct(x[at(k)].p), v = velocityWeight(m, k) * x[at(k)].v;
+    const Vector3 a = accelerationWeight(m, k) * x[at(k)].a;
+    g[at(k)] = {p + linear(problem, k, 0), v + linear(problem, k, 3), a};
     size[at(k)] = {p.cwiseAbs() + linear(problem, k, 0).cwiseAbs(), v.cwiseAbs() + linear(problem, k, 3).cwiseAbs(),
-                   Vector3::Zero()};
+                   a.cwiseAbs()};
     outputs = std::max({outputs, x[at(k)].p.norm(), x[at(k)].v.norm(), x[at(k)].a.norm()});
   }
   for (const PlannerProblem::Quadratic& term : problem.quadratics) {
@@ -278,7 +292,8 @@ PlannerCost costOf(const PlannerProblem& problem, const planner_qp_solver& answe
     const State& s = x[at(k)];
     add(0.5 * s.p.dot(positionWeights(m).cwiseProduct(s.p)));
     add(linear(problem, k, 0).dot(s.p));
-    add(0.5 * m.velocity * s.v.squaredNorm());
+    add(0.5 * velocityWeight(m, k) * s.v.squaredNorm());
+    add(0.5 * accelerationWeight(m, k) * s.a.squaredNorm());
     add(linear(problem, k, 3).dot(s.v));
     add(0.5 * m.jerk * jerkOf(answer, k - 1).squaredNorm());
   }

@@ -53,7 +53,7 @@ TEST(InteriorPoint, NeedsOneRecursionWithoutViolatedRows) {
 TEST(InteriorPoint, SharesTheViolationOfOpposingRows) {
   std::mt19937_64 random(5);
   const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum({0, 0, 0}, random));
-  known->qp.model.slack_linear = known->qp.model.slack_quadratic = 1e4;
+  known->qp.model.slack_linear = known->qp.model.slack_quadratic = 1e5;  // far above what the costs pull with
   known->qp.start.v = known->qp.start.a = Vector3::Zero();
   for (int k = 1; k <= kHorizon; ++k) {
     known->qp.addRow(k, Output::kPosition, Vector3::UnitX(), known->qp.start.p.x() + 1.0);

@@ -37,8 +37,10 @@ double qpCost(const Qp& qp, const Jerks& jerks) {
   for (std::size_t k = 1; k <= kHorizon; ++k) {
     const QpStage& stage = qp.stages[k];
     const KinematicState& x = plan.knots[k];
-    sum += 0.5 * x.p.dot(qp.positionHessian(static_cast<int>(k)) * x.p) + stage.position_gradient.dot(x.p) +
-           0.5 * qp.model.velocity_weight * x.v.squaredNorm() + stage.velocity_gradient.dot(x.v) +
+    const int number = static_cast<int>(k);
+    sum += 0.5 * x.p.dot(qp.positionHessian(number) * x.p) + stage.position_gradient.dot(x.p) +
+           0.5 * qp.model.velocityWeight(number) * x.v.squaredNorm() + stage.velocity_gradient.dot(x.v) +
+           0.5 * qp.model.accelerationWeight(number) * x.a.squaredNorm() +
            0.5 * qp.model.jerk_weight * jerks[k - 1].squaredNorm();
   }
   return sum;

@@ -102,6 +102,20 @@ TEST_F(SqpSolverTest, NeverMakesAPlanWorse) {
   EXPECT_GT(violated, kTrials / 4) << "the problems are too easy to mean anything";
 }
 
+// The stop behind a plan must fit into what the plan has kept clear; where the UAV flies next is to suffer little.
+TEST_F(SqpSolverTest, BehindAMovingTargetCruisesAndEndsNearlyAtRest) {
+  FlightProblem flight(kLine, 3.0, {Vector3(0, 0, 10), Vector3(3, 0, 0), Vector3::Zero()});
+  Trajectory plan = flight.coasting();
+  ASSERT_TRUE(solveCold(solver_, flight.problem, plan).solved);
+  EXPECT_LT(plan.knots.back().v.norm(), 0.3);
+  for (double t = 0.0; t <= 1.0; t += 0.1) EXPECT_NEAR(plan.after(t).v.x(), 3.0, 0.1) << t << " s";
+
+  flight.parameters.cost.stop_weight = 0.0;
+  plan = flight.coasting();
+  ASSERT_TRUE(solveCold(solver_, flight.problem, plan).solved);
+  EXPECT_NEAR(plan.knots.back().v.x(), 3.0, 0.1) << "it would not have gone on without: the test shows nothing";
+}
+
 TEST_F(SqpSolverTest, OneQpSolvesAnUnconstrainedProblem) {
   Random random(2);
   for (int trial = 0; trial < 50; ++trial) {

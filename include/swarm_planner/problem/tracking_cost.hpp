@@ -24,7 +24,8 @@ void findStageFrames(const UavProblem& problem, const Trajectory& plan, StageFra
 /// Cost of one stage's state and its derivatives: the integrand of (17) without the jerk term, times dt. At the last
 /// stage the velocity is not held against the target's but, with the acceleration, against rest, so that a plan ends
 /// nearly at rest and the stop behind it is short: instead of eta's velocity term there stands, times dt,
-///   stop_weight (velocity_time^2 |v_N|^2 + velocity_time^4 |a_N|^2).
+///   stop_weight velocity_time^2 (|v_N|^2 + (dt / 3)^2 |a_N|^2).
+/// The shortest stop takes two stages and goes dt (v_N + dt / 3 a_N): both count for as far as they carry.
 /// The gradient in the acceleration is accelerationWeight a.
 struct StageCost {
   double value = 0.0;
