@@ -81,6 +81,9 @@ void addLimits(TableBuilder& table) {
       "max_acceleration", "m/s^2", or_infinity, [](P& p) -> double& { return p.limits.max_acceleration; },
       "most acceleration, Euclidean norm; .inf: the thrust alone limits it");
   table.number(
+      "max_jerk", "m/s^3", or_infinity, [](P& p) -> double& { return p.limits.max_jerk; },
+      "most jerk of a plan that flies, Euclidean norm: attitude has to follow it");
+  table.number(
       "max_thrust_ratio", "", Range::aboveUpTo(1.0, 10.0), [](P& p) -> double& { return p.limits.max_thrust_ratio; },
       "most thrust over weight, T_max / (M g) of (6)");
   table.number(

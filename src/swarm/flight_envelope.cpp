@@ -63,6 +63,7 @@ double leastValue(double w0, double w1, double w2, double& where) {
 
 EnvelopeBreach findBreach(const FlightBounds& bounds, const KinematicState& begin, const Vector3& jerk, double dt) {
   double time = 0.0;
+  if (!(jerk.norm() <= bounds.max_jerk * (1.0 + kBoundTolerance))) return {FlightBound::kJerk, 0.0};
   const Quadratic velocity = velocityPoints(begin, jerk, dt);
   if (!staysWithin(velocity, bounds.max_speed, dt, time)) return {FlightBound::kSpeed, time};
 
@@ -89,7 +90,7 @@ double envelopeRatio(const FlightBounds& bounds, const KinematicState& begin, co
   double where = 0.0;
   const double vertical = leastValue(thrust[0].z(), thrust[1].z(), thrust[2].z(), where);
   const double missing = bounds.min_vertical_thrust + bounds.gravity.z() - vertical;
-  return std::max({std::sqrt(greatestSquaredNorm(velocity)) / bounds.max_speed, acceleration / bounds.max_acceleration,
+  return std::max({jerk.norm() / bounds.max_jerk, std::sqrt(greatestSquaredNorm(velocity)) / bounds.max_speed, acceleration / bounds.max_acceleration,
                    std::sqrt(greatestSquaredNorm(thrust)) / bounds.max_thrust_acceleration,
                    1.0 + missing / bounds.gravity.z()});
 }

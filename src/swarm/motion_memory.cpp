@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/swarm/motion_memory.hpp"
 
-#include <algorithm>
-
 namespace swarm_planner {
 
 void MotionMemory::clear() {
@@ -44,9 +42,13 @@ void MotionMemory::goOn(double epoch) {
     on_older_ = false;
   }
   CommittedMotion& motion = motions_[newest_];
-  const double elapsed = (epoch - motion.epoch() + CommittedMotion::kTimeTolerance) / motion.dt();
-  const int ended = static_cast<int>(std::min(std::max(elapsed, 0.0), static_cast<double>(motion.pieces())));
-  if (ended == 0) return;
+  if (epoch >= motion.epoch() + motion.duration()) {
+    path_.append(motion, epoch);
+    motion.assignRest(epoch, Vector3(motion.restingPlace()));
+    return;
+  }
+  const int ended = static_cast<int>((epoch - motion.epoch() + CommittedMotion::kTimeTolerance) / motion.dt());
+  if (ended <= 0) return;
   path_.append(motion, motion.epoch() + ended * motion.dt());
   motion.dropPieces(ended);
 }

@@ -22,7 +22,7 @@ bool isFinite(const Trajectory& plan) {
 }
 
 bool isFinite(const PredictedObstacle& obstacle) {
-  return std::isfinite(obstacle.stamp) && std::isfinite(obstacle.margin) && obstacle.margin >= 0.0 &&
+  return std::isfinite(obstacle.stamp) &&
          std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
          std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && obstacle.growth_time >= 0.0 &&
          !std::isnan(obstacle.valid_until);
@@ -41,6 +41,8 @@ CheckReason reasonOf(FlightBound bound) {
       return CheckReason::kSpeed;
     case FlightBound::kAcceleration:
       return CheckReason::kAcceleration;
+    case FlightBound::kJerk:
+      return CheckReason::kJerk;
     case FlightBound::kThrust:
       return CheckReason::kThrust;
   }
@@ -111,9 +113,7 @@ class ObstacleCheck {
         // A stamp after the epoch counts as the epoch: what grows later is never less than demanded.
         growth_end_(std::max(obstacle.growth_time - std::max(motion.epoch() - obstacle.stamp, 0.0), 0.0)),
         center_(body_.center() + (motion.epoch() - obstacle.stamp) * body_.velocity()),
-        margin_(limits.margin_time > 0.0 ? obstacle.margin : 0.0),
-        margin_end_(limits.margin_time - kTimeTolerance),
-        distance_(obstacle.least_distance + margin_ +
+        distance_(obstacle.least_distance +
                   growth_rate_ * std::clamp(motion.epoch() - obstacle.stamp, 0.0, obstacle.growth_time)),
         end_(std::min(motion.duration() + limits.look_ahead, obstacle.valid_until - motion.epoch())),
         proof_(body_) {}
@@ -126,25 +126,17 @@ class ObstacleCheck {
       const double from = first * motion_.dt();
       const double to = last * motion_.dt();
       if (from > end_) return {};
-      if (from >= margin_end_) endMargin();
       if (isFar(motion_.groupBox(first / CommittedMotion::kGroup), from, to)) continue;
       for (int k = first; k < last; ++k) {
-        if (k * motion_.dt() >= margin_end_) endMargin();
         const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
         if (!verdict.accepted()) return verdict;
       }
     }
-    if (motion_.duration() >= margin_end_) endMargin();
     return checkPiece(motion_.pieces(), motion_.duration(), end_);
   }
 
  private:
   double distanceAt(double time) const { return distance_ + growth_rate_ * std::min(time, growth_end_); }
-  /// The margin, as much as is left of it, ends with the plan.
-  void endMargin() {
-    distance_ -= margin_;
-    margin_ = 0.0;
-  }
   Vector3 centerAt(double time) const { return center_ + time * body_.velocity(); }
 
   /// Whether a box is certainly clear of the body as it sweeps from one time to another.
@@ -158,25 +150,21 @@ class ObstacleCheck {
     return gap.squaredNorm() > distance * distance;
   }
 
-  /// Reduces what is demanded to what the start has. False if that is not enough.
+  /// Reduces what is demanded to what the committed motion has. False if the start has less.
   bool relieve(const Vector3& committed) {
     distance_ = std::max(distance_ - kDistanceTolerance, 0.0);
-    const Vector3 relative = motion_.start() - center_;
+    if (distanceFrom(motion_.start()) >= distance_) return true;
+    distance_ = std::min(distance_, std::max(distanceFrom(committed) - kDistanceTolerance, 0.0));
+    return distanceFrom(motion_.start()) >= distance_;
+  }
+
+  /// Of a point at the epoch from the body; no more than is demanded has to be known.
+  double distanceFrom(const Vector3& point) const {
+    const Vector3 relative = point - center_;
     const Vector3 gap = (relative.cwiseAbs() - body_.halfExtents()).cwiseMax(0.0);
-    if (gap.squaredNorm() > distance_ * distance_ || distanceBound(body_, relative) > distance_) return true;
-    const double missing = distance_ - body_.signedDistance(body_.center() + relative);
-    if (missing <= 0.0) return true;
-    double waived = margin_;
-    if (missing > margin_) {
-      const Vector3 before = committed - center_;
-      waived = std::max(margin_, distance_ - body_.signedDistance(body_.center() + before));
-      waived = std::min(waived, distance_);
-    }
-    if (missing > waived) return false;
-    const double used = std::min(missing + kUsedMarginTolerance, waived);
-    distance_ -= used;
-    margin_ = std::max(0.0, margin_ - used);
-    return true;
+    if (gap.squaredNorm() > distance_ * distance_) return gap.norm();
+    const double bound = distanceBound(body_, relative);
+    return bound > distance_ ? bound : body_.signedDistance(body_.center() + relative);
   }
 
   CheckVerdict checkPiece(int k, double from, double to) {
@@ -199,8 +187,6 @@ class ObstacleCheck {
   double growth_rate_;
   double growth_end_;  ///< [s]
   Vector3 center_;     ///< at the epoch
-  double margin_;      ///< in distance_ [m]
-  double margin_end_;  ///< [s]
   double distance_;    ///< demanded at the epoch [m]
   double end_;
   ObstacleProof proof_;
@@ -215,9 +201,7 @@ class PairCheck {
         offset_(other.motion->epoch() - motion.epoch()),
         end_(other.valid_until - motion.epoch()),
         limits_(limits),
-        margin_(limits.margin_time > 0.0 ? limits.pair_margin : 0.0),
-        margin_end_(limits.margin_time - kTimeTolerance),
-        proof_(limits.pair_horizontal + margin_, limits.pair_vertical + margin_) {}
+        proof_(limits.pair_horizontal, limits.pair_vertical) {}
 
   CheckVerdict run(const Vector3& committed) {
     // Before its epoch the other one may be anywhere along its first piece, drawn out.
@@ -226,17 +210,14 @@ class PairCheck {
     for (int first = 0; first < motion_.pieces(); first += CommittedMotion::kGroup) {
       const int last = std::min(first + CommittedMotion::kGroup, motion_.pieces());
       if (first * motion_.dt() > end_) return {};
-      if (first * motion_.dt() >= margin_end_) endMargin();
       if (areApart(first, last)) continue;
       for (int k = first; k < last && k * motion_.dt() <= end_; ++k) {
-        if (k * motion_.dt() >= margin_end_) endMargin();
         if (areApart(k, k + 1)) continue;
         const CheckVerdict verdict = checkPiece(k, k * motion_.dt(), (k + 1) * motion_.dt());
         if (!verdict.accepted()) return verdict;
       }
     }
     if (motion_.duration() > end_) return {};
-    if (motion_.duration() >= margin_end_) endMargin();
     // The other one may fly on while this one rests; once both rest nothing changes any more.
     const double end = motion_.duration();
     const double other_end = std::max(offset_ + other_.duration(), end);
@@ -257,43 +238,31 @@ class PairCheck {
     return proof_.areApart(own, other_.boxOver(from, to));
   }
 
-  /// What a distance `d` of the UAVs has beyond the least semi-axes, up to `most`; negative if it has less than them.
-  double marginOf(const Vector3& d, double most) const {
-    const auto isOutside = [&](double extra) {
-      const Vector3 scaled(d.x() / (limits_.pair_horizontal + extra), d.y() / (limits_.pair_horizontal + extra),
-                           d.z() / (limits_.pair_vertical + extra));
-      return scaled.squaredNorm() >= 1.0;
-    };
-    if (isOutside(most - kDistanceTolerance)) return most;
-    double low = (kLeastScale - 1.0) * std::min(limits_.pair_horizontal, limits_.pair_vertical);
-    double high = most;
-    for (int i = 0; i < 50; ++i) {
-      const double middle = 0.5 * (low + high);
-      (isOutside(middle) ? low : high) = middle;
-    }
-    return low;
-  }
-
-  /// Semi-axes with the margin, or those on which the start lies, but no less than the rule demands.
-  void relieve(const Vector3& committed) {
-    const Vector3 other = other_.after(-offset_).p;
-    const double has = marginOf(motion_.start() - other, margin_);
-    if (has < margin_) {
-      const double least = has < 0.0 ? std::min(0.0, marginOf(committed - other, 0.0)) : 0.0;
-      margin_ = std::max(has - kUsedMarginTolerance, least);
-    }
-    proof_ = proofWith(margin_);
-  }
-
-  /// The margin, as much as is left of it, ends with the plan.
-  void endMargin() {
-    margin_end_ = std::numeric_limits<double>::infinity();
-    if (margin_ > 0.0) proof_ = proofWith(0.0);
-  }
-
-  PairProof proofWith(double margin) const {
-    const double extra = margin - kDistanceTolerance;
+  PairProof proofWith(double extra) const {
     return PairProof(limits_.pair_horizontal + extra, limits_.pair_vertical + extra);
+  }
+
+  /// Whether UAVs `d` apart are outside of the ellipsoid with `extra` on its semi-axes.
+  bool isOutside(const Vector3& d, double extra) const {
+    const Vector3 scaled(d.x() / (limits_.pair_horizontal + extra), d.y() / (limits_.pair_horizontal + extra),
+                         d.z() / (limits_.pair_vertical + extra));
+    return scaled.squaredNorm() >= 1.0;
+  }
+
+  /// Takes from the semi-axes what the committed motion lacks of them, if the start lacks something.
+  void relieve(const Vector3& committed) {
+    double extra = -kDistanceTolerance;
+    const Vector3 other = other_.after(-offset_).p;
+    if (!isOutside(motion_.start() - other, extra) && !isOutside(committed - other, 0.0)) {
+      double inside = 0.0;
+      double outside = (kLeastScale - 1.0) * std::min(limits_.pair_horizontal, limits_.pair_vertical);
+      for (int i = 0; i < 50; ++i) {
+        const double middle = 0.5 * (inside + outside);
+        (isOutside(committed - other, middle) ? outside : inside) = middle;
+      }
+      extra += outside;
+    }
+    proof_ = proofWith(extra);
   }
 
   /// Where the other UAV is in `piece` (its index) over [from, to], extrapolated if need be.
@@ -339,8 +308,6 @@ class PairCheck {
   double offset_;  ///< the other's epoch minus the first one's [s]
   double end_;     ///< until when the other one may be flown [s]
   const CheckLimits& limits_;
-  double margin_;      ///< in proof_ [m]
-  double margin_end_;  ///< [s]
   PairProof proof_;
 };
 
@@ -363,6 +330,8 @@ const char* checkReasonText(CheckReason reason) {
       return "exceeds the speed limit";
     case CheckReason::kAcceleration:
       return "exceeds the acceleration limit";
+    case CheckReason::kJerk:
+      return "exceeds the jerk limit";
     case CheckReason::kThrust:
       return "exceeds the thrust limits";
     case CheckReason::kNoStop:
@@ -381,14 +350,12 @@ const char* checkReasonText(CheckReason reason) {
   return "unknown";
 }
 
-PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least,
-                                  double margin) {
+PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least) {
   const TrackInflation inflation = inflationOf(track, input);
   PredictedObstacle obstacle;
   obstacle.body = &track.shape;
   obstacle.stamp = track.stamp;
   obstacle.least_distance = least + inflation.at_stamp;
-  obstacle.margin = margin;
   obstacle.growth_rate = inflation.growth_rate;
   obstacle.growth_time = inflation.growth_time;
   return obstacle;

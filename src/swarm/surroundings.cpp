@@ -38,8 +38,8 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
     const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
                                 inflation.at(inflation.growth_time) - at_epoch};
     obstacles_.push_back({track.shape.movedBy(age), at_epoch, growth});
-    checked_obstacles_.push_back(predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error,
-                                                 limits.tracking_margin - limits.tracking_error));
+    checked_obstacles_.push_back(
+        predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error));
     checked_obstacles_.back().stamp = measured;
   }
 }

@@ -15,6 +15,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kBoundSlack = 0.1;       // of a bound, by which a measured start may exceed it
+constexpr double kReserve = 0.002;        // of the bounds, that the solver stays inside
 constexpr double kMoved = 0.5;            // a UAV at rest that is so far from its place has been moved [m]
 constexpr double kDeviationGain = 0.2;    // of a new measurement in the mean deviation
 constexpr double kSamePlace = 1e-6;       // starts closer than this are the same [m, m/s]
@@ -32,9 +33,16 @@ CheckLimits makeCheckLimits(const Parameters& parameters, const Workspace* works
   limits.workspace_slack = distances.tracking_margin;
   limits.pair_horizontal = distances.pair_distance + 2.0 * distances.tracking_error;
   limits.pair_vertical = distances.pair_distance_vertical + 2.0 * distances.tracking_error;
-  limits.pair_margin = distances.pair_margin - 2.0 * distances.tracking_error;
-  limits.margin_time = kHorizon * parameters.time.sampling_time;
   return limits;
+}
+
+/// Bounds for the solver, which keeps tangents to them at the samples: a little inside of what the check demands.
+FlightBounds reserved(FlightBounds bounds) {
+  bounds.max_speed *= 1.0 - kReserve;
+  bounds.max_acceleration *= 1.0 - kReserve;
+  bounds.max_thrust_acceleration *= 1.0 - kReserve;
+  bounds.min_vertical_thrust += kReserve * bounds.gravity.z();
+  return bounds;
 }
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
@@ -93,7 +101,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
       sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
-  problem_.bounds = limits_.bounds;
+  problem_.bounds = reserved(limits_.bounds);
   problem_.bodies.reserve(max_bodies);
   check_.obstacles.reserve(max_bodies);
   check_.uavs.reserve(2 * max_bodies);
@@ -173,17 +181,15 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
 }
 
 Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
-  CheckLimits limits = limits_;
-  limits.margin_time = 0.0;
   record.motions.goOn(epoch);
   kept_ = record.motions.newest();
-  const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits, check_);
+  const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
   if (kept.accepted()) return Reason::kPlanRefused;
 
   StopManoeuvre stop;
   planStop(record.start, problem_.dt, relieveBounds(limits_.bounds, record.start, kBoundSlack), stop);
   stop_.assignStop(epoch, stop);
-  if (stop.within_bounds && checkClearance(stop_, committed_, limits, check_).accepted()) {
+  if (stop.within_bounds && checkClearance(stop_, committed_, limits_, check_).accepted()) {
     record.motions.commit(stop_);
     record.planned = true;
     return Reason::kBraking;

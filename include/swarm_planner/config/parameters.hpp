@@ -31,6 +31,7 @@ struct VehicleParameters {
 struct LimitParameters {
   double max_speed = 5.0;                                             ///< Euclidean norm [m/s]
   double max_acceleration = std::numeric_limits<double>::infinity();  ///< Euclidean norm [m/s^2]
+  double max_jerk = 30.0;               ///< Euclidean norm; no plan that asks for more flies [m/s^3]
   double max_thrust_ratio = 2.0;                                      ///< T_max / (M g) of (6)
   double min_thrust_ratio = 0.2;        ///< least (A_z + g) / g, keeps the vehicle upright
   double uav_radius = 0.3;              ///< least distance of a UAV's centre to an obstacle's surface [m]

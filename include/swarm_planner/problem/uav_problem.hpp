@@ -15,6 +15,7 @@ namespace swarm_planner {
 struct FlightBounds {
   double max_speed = 0.0;                    ///< |v| [m/s]
   double max_acceleration = 0.0;             ///< |a| [m/s^2], may be infinite
+  double max_jerk = 0.0;                     ///< of a plan that passes the check [m/s^3], may be infinite
   double max_thrust_acceleration = 0.0;      ///< |A + g e3|, T_max / M of (6) [m/s^2]
   double min_vertical_thrust = 0.0;          ///< A_z, so that A_z + g >= min_thrust_ratio g [m/s^2]
   Vector3 drag_over_mass = Vector3::Zero();  ///< of A = a + k_d / M v, eq. (3) [1/s]

@@ -6,7 +6,7 @@
 namespace swarm_planner {
 
 /// A bound on a UAV's own motion.
-enum class FlightBound { kNone, kSpeed, kAcceleration, kThrust };
+enum class FlightBound { kNone, kSpeed, kAcceleration, kJerk, kThrust };
 
 /// The first bound that a segment exceeds.
 struct EnvelopeBreach {

@@ -33,7 +33,7 @@ class MotionMemory {
 
   /// From motion.epoch() on the UAV is to fly `motion`.
   void commit(const CommittedMotion& motion);
-  /// The UAV goes on with what it flies. Pieces that have ended by `epoch` [s] are forgotten.
+  /// The UAV goes on with what it flies. Pieces that have ended by `epoch` [s] are forgotten; a rest begins anew there.
   void goOn(double epoch);
 
  private:

@@ -12,23 +12,23 @@ namespace swarm_planner {
 // The check that every plan passes before it flies. It judges the continuous curve of plan, stop and rest, and shares
 // nothing with the solver's linearisation.
 //
-// The rule for whatever is demanded with a margin: distances, workspace and bounds alike.
+// The rule for whatever is demanded, distances and workspace alike.
 //
-//   Demanded is `least` + `margin` over the plan, `least` from its end on. Where the start itself has less, what the start has is demanded all along, but
-//   never less than `least`: a margin that is used up need not be regained, and must not shrink further. Where the
-//   motion committed before has less than `least` at the start's time (UAVs may stand closer than that before the
-//   first plan, an obstacle may appear beside one), what it has takes the place of `least`.
+//   Demanded is `least`, all along. Where the motion committed before has less at the time at which the plan starts (UAVs
+//   may stand closer than that before the first plan, an obstacle may appear beside one), what it has takes the place of
+//   `least`: a plan need not be better than what flies, and must not be worse.
 //
 // Why it is made so. Let a motion, from its own start on, be followed to within e, and let `least` be the hard distance
 // plus e (twice e for a pair). Then
-//  - whoever flies a motion that was accepted keeps the hard distance, at whatever margin its start was: every accepted
-//    motion keeps `least`, for good;
+//  - whoever flies a motion that was accepted keeps the hard distance, wherever its start was: every accepted motion keeps
+//    `least`, for good;
 //  - a refused plan changes nothing: the motion committed before goes on, accepted to its end and its rest;
 //  - the motion committed before, from any later point of it on, would be accepted again: it keeps its distance, which
 //    under predictions that stay within their stated growth is no less than `least` either. So a plan that starts on
-//    the committed motion always exists, and a state with a used-up margin is not refused for ever;
+//    the committed motion always exists: nobody is refused for ever;
 //  - a start that tracking error has moved below `least` is refused, whatever the plan: one can start from the
 //    committed motion instead.
+// The margin that plans are made with is larger than e, so that few starts are refused; the check does not ask for it.
 // With `least` the hard distance alone, the error of each motion's tracking adds to that of the one before, and the
 // hard distance itself may be used up.
 
@@ -36,10 +36,6 @@ namespace swarm_planner {
 constexpr double kDistanceTolerance = 1e-6;
 /// Knots have to follow from their predecessors and jerks to within this [m, m/s, m/s^2].
 constexpr double kKnotTolerance = 1e-6;
-/// Where the start's own distance is demanded, it may shrink by this, though not below the least [m]: a motion that
-/// keeps it exactly could not be told from one that does not.
-constexpr double kUsedMarginTolerance = 1e-3;
-
 /// What holds for all UAVs alike.
 struct CheckLimits {
   /// Speed, acceleration and thrust; workspace that a centre keeps to, its margin included.
@@ -48,29 +44,22 @@ struct CheckLimits {
   double workspace_slack = 0.0;  ///< how far outside of bounds.workspace a start may lie [m]
   double pair_horizontal = 0.0;  ///< least semi-axes of the pair ellipsoid (14) [m]
   double pair_vertical = 0.0;
-  double pair_margin = 0.0;  ///< on top of both [m]
-  /// How long after a motion's epoch margins are demanded [s]: over a plan, which is made to keep them. Its stop and its
-  /// rest, and a motion that was accepted before, need no more than `least`.
-  double margin_time = std::numeric_limits<double>::infinity();
   double look_ahead = 20.0;  ///< how long the resting place must stay clear of obstacles [s]
 };
 
 /// An obstacle with constant velocity, and the distance to keep from its surface S = 1 at time t >= stamp:
-/// least_distance + margin + growth_rate min(t - stamp, growth_time).
+/// least_distance + growth_rate min(t - stamp, growth_time).
 struct PredictedObstacle {
   const Superellipsoid* body = nullptr;                          ///< its centre at `stamp`
   double stamp = 0.0;                                            ///< [s]
   double least_distance = 0.0;                                   ///< >= 0 [m]
-  double margin = 0.0;                                           ///< [m]
   double growth_rate = 0.0;                                      ///< >= 0; how fast the prediction may turn wrong [m/s]
   double growth_time = std::numeric_limits<double>::infinity();  ///< >= 0; how long after the stamp it does [s]
   double valid_until = std::numeric_limits<double>::infinity();  ///< not looked at later [s]
 };
 
-/// What a track demands: `least` [m], the hard distance, plus its inflation; `margin` [m] besides. The track must
-/// outlive the prediction.
-PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least,
-                                  double margin);
+/// What a track demands: `least` [m] plus its inflation. The track must outlive the prediction.
+PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least);
 
 /// A motion that another UAV may be flying.
 struct OtherMotion {
@@ -97,6 +86,7 @@ enum class CheckReason {
   kDiscontinuous,  ///< not from the start, or knots that do not follow from the jerks
   kSpeed,
   kAcceleration,
+  kJerk,
   kThrust,
   kNoStop,  ///< no stop from the plan's end keeps the bounds
   kWorkspace,
