@@ -12,7 +12,8 @@ constexpr double kStep = 0.05;  // [s]
 double obstacleShortfall(const Vector3& p, double t, const PredictedObstacle& obstacle) {
   if (t > obstacle.valid_until) return 0.0;
   const double age = t - obstacle.stamp;
-  const double least = obstacle.least_distance + obstacle.growth_rate * age;
+  const double least =
+      obstacle.least_distance + obstacle.growth_rate * std::clamp(age, 0.0, obstacle.growth_time);
   const Superellipsoid& body = *obstacle.body;
   const Vector3 relative = p - age * body.velocity() - body.center();
   if (((relative.cwiseAbs() - body.halfExtents()).array() > least).any()) return 0.0;
@@ -28,20 +29,21 @@ double pairShortfall(const Vector3& p, double t, const OtherMotion& other, const
 
 }  // namespace
 
-double worstShortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
-                      const CheckSurroundings& surroundings) {
-  const double end = std::max(from, motion.epoch() + motion.duration());
-  const auto steps = static_cast<int>(std::ceil((end - from) / kStep));
-  double worst = 0.0;
-  for (int i = 0; i <= steps; ++i) {
-    const double t = std::min(from + i * kStep, end);
+double shortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
+                 const CheckSurroundings& surroundings) {
+  const auto steps = static_cast<int>(std::round(kShortfallTime / kStep));
+  double sum = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = from + (i + 0.5) * kStep;
     const Vector3 p = motion.at(t).p;
+    double worst = 0.0;
     for (const PredictedObstacle& obstacle : surroundings.obstacles) {
       worst = std::max(worst, obstacleShortfall(p, t, obstacle));
     }
     for (const OtherMotion& other : surroundings.uavs) worst = std::max(worst, pairShortfall(p, t, other, limits));
+    sum += kStep * worst;
   }
-  return worst;
+  return sum;
 }
 
 }  // namespace swarm_planner

@@ -7,6 +7,8 @@
 namespace swarm_planner {
 namespace {
 
+constexpr int kStopReach = 1;  // stages at full speed that a stop is as long as
+
 void include(Box& box, const Box& other) {
   box.min = box.min.cwiseMin(other.min);
   box.max = box.max.cwiseMax(other.max);
@@ -80,7 +82,8 @@ bool Surroundings::isWithinArea(std::size_t uav, const CommittedMotion& motion) 
 
 Box Surroundings::reach(const KinematicState& start) const {
   const double speed = std::max(parameters_.limits.max_speed, start.v.norm());
-  const Vector3 extent = Vector3::Constant(speed * kHorizon * parameters_.time.sampling_time);
+  // The stop goes on for some stages, ever slower.
+  const Vector3 extent = Vector3::Constant(speed * (kHorizon + kStopReach) * parameters_.time.sampling_time);
   return {start.p - extent, start.p + extent};
 }
 

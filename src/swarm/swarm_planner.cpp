@@ -75,6 +75,7 @@ class SwarmPlanner::Impl {
     const Stopwatch stopwatch;
     ++report.cycle;
     report.epoch = epoch;
+    report.out_of_time = false;
     tracks.update(snapshot.obstacles, snapshot.now);
     report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
@@ -123,7 +124,8 @@ class SwarmPlanner::Impl {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
         if (judged[i] != Reason::kNone) return;
-        if (stopwatch.elapsed() > budget) {
+        const bool is_first = round == 0 && position == 0;  // whatever the budget: somebody makes progress
+        if (!is_first && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
         } else {
           planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
@@ -158,7 +160,6 @@ class SwarmPlanner::Impl {
 
   /// Who missed its turn comes first in the next cycle, so that nobody misses it for ever.
   void noteOverrun() {
-    report.out_of_time = false;
     for (std::size_t position = 0; position < uavs.size() && !report.out_of_time; ++position) {
       const std::size_t i = order.uav(position);
       if (report.uavs[i].reason != Reason::kOverrun) continue;

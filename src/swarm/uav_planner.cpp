@@ -19,7 +19,7 @@ constexpr double kReserve = 0.002;        // of the bounds, that the solver stay
 constexpr double kMoved = 0.5;            // a UAV at rest that is so far from its place has been moved [m]
 constexpr double kDeviationGain = 0.2;    // of a new measurement in the mean deviation
 constexpr double kSamePlace = 1e-6;       // starts closer than this are the same [m, m/s]
-constexpr double kSameShortfall = 1e-3;   // [m]
+constexpr double kSameShortfall = 1e-3;   // [m s]
 constexpr double kLostMargins = 2.0;      // tracking margins by which a lost setpoint shows
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
@@ -195,25 +195,21 @@ Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
     return Reason::kBraking;
   }
 
-  // Nothing is safe for good. What comes too close least flies; among those that do not, the one whose place of rest is
-  // safe longest: a later cycle has that much time to find better.
-  const double stop_shortfall = worstShortfall(stop_, epoch, limits_, check_);
-  const double kept_shortfall = worstShortfall(kept_, epoch, limits_, check_);
-  const double conflict = kept.reason == CheckReason::kRestingPlace ? kept_.epoch() + kept.time : epoch;
-  double least = kept_shortfall;
+  // Nothing is safe for good. What falls short least flies; among those that do not within the time looked at, the one
+  // whose place of rest is safe longest: a later cycle has that much time to find better.
+  double least = shortfall(kept_, epoch, limits_, check_);
+  double conflict = kept.reason == CheckReason::kRestingPlace ? kept_.epoch() + kept.time : epoch;
   const CommittedMotion* best = &kept_;
-  if (stop_shortfall < least - kSameShortfall) {
-    least = stop_shortfall;
-    best = &stop_;
-  }
-  if (has_proposal_) {
-    const double shortfall = worstShortfall(proposed_, epoch, limits_, check_);
-    const bool lasts_longer = best == &kept_ && proposal_conflict_ > conflict;
-    if (shortfall < least - kSameShortfall || (shortfall < least + kSameShortfall && lasts_longer)) {
-      least = shortfall;
-      best = &proposed_;
-    }
-  }
+  const auto consider = [&](const CommittedMotion& motion, double its_conflict) {
+    const double lacking = shortfall(motion, epoch, limits_, check_);
+    const bool lasts_longer = lacking < least + kSameShortfall && its_conflict > conflict;
+    if (lacking > least - kSameShortfall && !lasts_longer) return;
+    least = lacking;
+    conflict = its_conflict;
+    best = &motion;
+  };
+  if (has_proposal_) consider(proposed_, proposal_conflict_);
+  consider(stop_, epoch);
   if (best != &kept_) {
     record.motions.commit(*best);
     record.planned = true;

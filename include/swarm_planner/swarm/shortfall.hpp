@@ -5,9 +5,14 @@
 
 namespace swarm_planner {
 
-/// By how much a motion falls short of the least distances at worst, from `from` [s] until it rests [m]; 0 if it keeps
-/// them. Looked at every 0.05 s: it ranks motions none of which is safe, it proves nothing.
-double worstShortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
-                      const CheckSurroundings& surroundings);
+/// How far ahead shortfalls are looked at [s].
+constexpr double kShortfallTime = 10.0;
+
+/// By how much, and for how long, a motion and its rest fall short of the least distances within kShortfallTime from
+/// `from` [s] on: the integral over time of the worst shortfall at each moment [m s]; 0 if they keep them. So of two
+/// motions that begin too close to something the one that leaves sooner has less. Looked at every 0.05 s: it ranks
+/// motions none of which is safe, it proves nothing.
+double shortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
+                 const CheckSurroundings& surroundings);
 
 }  // namespace swarm_planner
