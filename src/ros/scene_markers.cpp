@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/scene_markers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,8 @@ using visualization_msgs::Marker;
 constexpr int kObstacleSlices = 40;
 // How far ahead a velocity arrow points [s].
 constexpr double kArrowTime = 4.0;
+// Characters in a line of a label; a note in a single line would run off the screen.
+constexpr std::size_t kLabelWidth = 36;
 // Slower is shown as standing still [m/s].
 constexpr double kStandstill = 1e-3;
 
@@ -47,6 +50,19 @@ std_msgs::ColorRGBA textColor(Concern concern) {
       break;
   }
   return alarmColor(1.0F);
+}
+
+/// `text` with line breaks in place of blanks, so that lines that can be broken are no longer than `width`.
+std::string wrapped(std::string text, std::size_t width) {
+  std::size_t begin = 0;
+  while (text.size() - begin > width) {
+    std::size_t blank = text.rfind(' ', begin + width);
+    if (blank == std::string::npos || blank < begin) blank = text.find(' ', begin);
+    if (blank == std::string::npos) break;
+    text[blank] = '\n';
+    begin = blank + 1;
+  }
+  return text;
 }
 
 void setScale(const Vector3& scale, Marker& marker) { marker.scale = toVector3Message(scale); }
@@ -101,9 +117,11 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
     separation.color = alarm ? alarmColor(0.45F) : uavColor(index, 0.2F);
 
     Marker& label = add("label", index, Marker::TEXT_VIEW_FACING);
-    label.pose.position = toPoint(uav.position + sizes_.uav * Vector3::UnitZ());
     label.scale.z = 0.8 * sizes_.uav;
-    label.text = uav.note.empty() ? uav.name : uav.name + ": " + uav.note;
+    label.text = wrapped(uav.note.empty() ? uav.name : uav.name + ": " + uav.note, kLabelWidth);
+    // Text is centred about its position: of many lines the last is to stay above the UAV.
+    const auto breaks = static_cast<double>(std::count(label.text.begin(), label.text.end(), '\n'));
+    label.pose.position = toPoint(uav.position + (sizes_.uav + 0.5 * breaks * label.scale.z) * Vector3::UnitZ());
     label.color = textColor(uav.concern);
   }
   if (uav.trail.size() > 1) {

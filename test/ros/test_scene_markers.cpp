@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/ros/scene_markers.hpp"
@@ -76,6 +77,21 @@ TEST_F(SceneMarkersTest, CautionIsToldFromAllWellByTheLabel) {
   EXPECT_EQ(well.text, "uav1");
   EXPECT_EQ(caution.text, "uav1: because");
   EXPECT_GT(caution.color.r, well.color.r + 0.5F);
+}
+
+TEST_F(SceneMarkersTest, LongNotesAreBrokenIntoLinesThatKeepEveryWord) {
+  UavDrawing uav = drawingOf(Concern::kAlarm);
+  uav.note = "no plan keeps all distances (too close to an obstacle); flying the least violating one";
+  const Marker label = drawn(uav, "label");
+  std::istringstream lines(label.text);
+  std::string joined;
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), 36U) << line;
+    joined += (joined.empty() ? "" : " ") + line;
+  }
+  EXPECT_EQ(joined, "uav1: " + uav.note);
+  uav.note = "/a_namespace/that_goes_on_and_on/without_any_blank/odometry is silent";
+  EXPECT_EQ(drawn(uav, "label").text, "uav1:\n/a_namespace/that_goes_on_and_on/without_any_blank/odometry\nis silent");
 }
 
 TEST_F(SceneMarkersTest, MotionIsDrawnToItsPlaceOfRest) {
