@@ -52,6 +52,7 @@ void MarkerPublisher::update(const SwarmPlanner& planner, const PlannerStatus& s
   for (std::size_t uav = 0; uav < drawings_.size(); ++uav) {
     UavDrawing& drawing = drawings_[uav];
     drawing.note = status.uavs[uav].reason;
+    drawing.concern = concernOf(status.uavs[uav]);
     drawing.planned = status.uavs[uav].planned;
     if (drawing.planned) drawing.plan = planner.committed(uav);
     drawing.targeted = true;
@@ -96,7 +97,9 @@ void MarkerPublisher::publish() {
     if (everything && uavs[uav].targeted) markers_.addReference(index, uavs[uav].reference, until);
   }
   drawObstacles(now, everything);
-  markers_.addStatus(statusPosition(box_), text);
+  Concern concern = Concern::kNone;
+  for (const UavDrawing& uav : uavs) concern = std::max(concern, uav.concern);
+  markers_.addStatus(statusPosition(box_), text, concern);
   publisher_.publish(markers_.message());
 }
 
@@ -136,11 +139,15 @@ void MarkerPublisher::drawObstacles(double now, bool everything) {
 std::string MarkerPublisher::statusText(double now) const {
   const auto tracking = std::count_if(status_.uavs.begin(), status_.uavs.end(),
                                       [](const UavStatus& uav) { return uav.state == UavStatus::TRACKING; });
+  const auto alarms =
+      std::count_if(status_.uavs.begin(), status_.uavs.end(), [](const UavStatus& uav) { return uav.alarm; });
   char text[160];
   const double run_time = status_.started ? now - toSeconds(status_.time_zero) : 0.0;
   std::snprintf(text, sizeof(text), "t = %.1f s    cycle %.1f ms    %ld of %zu tracking", run_time,
                 1e3 * status_.cycle_time, static_cast<long>(tracking), drawings_.size());
-  return text;
+  std::string line = text;
+  if (alarms > 0) line += "    ALARM: " + std::to_string(alarms);
+  return line;
 }
 
 }  // namespace swarm_planner

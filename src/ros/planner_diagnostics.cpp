@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/planner_diagnostics.hpp"
 
-#include <algorithm>
 #include <numeric>
 
 #include "swarm_planner/swarm/swarm_planner.hpp"
@@ -12,9 +11,20 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 unsigned char levelOf(const UavStatus& uav) {
-  if (uav.state == UavStatus::LOST) return DiagnosticStatus::ERROR;
-  if (uav.state == UavStatus::FALLBACK || !uav.reason.empty()) return DiagnosticStatus::WARN;
-  return DiagnosticStatus::OK;
+  switch (concernOf(uav)) {
+    case Concern::kNone:
+      return DiagnosticStatus::OK;
+    case Concern::kCaution:
+      return DiagnosticStatus::WARN;
+    case Concern::kAlarm:
+      break;
+  }
+  return DiagnosticStatus::ERROR;
+}
+
+std::string textOf(const UavStatus& uav) {
+  const std::string state = stateText(static_cast<UavState>(uav.state));
+  return uav.reason.empty() ? state : state + ": " + uav.reason;
 }
 
 }  // namespace
@@ -35,10 +45,7 @@ PlannerDiagnostics::PlannerDiagnostics(const std::vector<std::string>& uav_names
 
 void PlannerDiagnostics::addCycle(const PlannerStatus& status) {
   planner_status_ = status;
-  ++cycles_;
-  misses_ += status.deadline_missed ? 1 : 0;
-  time_sum_ += status.cycle_time;
-  time_max_ = std::max(time_max_, status.cycle_time);
+  tally_.add(status);
 }
 
 void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now) {
@@ -49,10 +56,7 @@ void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackI
   last_uavs_ = uavs_;
   last_tracks_ = tracks_;
   last_time_ = now;
-  cycles_ = 0;
-  misses_ = 0;
-  time_sum_ = 0.0;
-  time_max_ = 0.0;
+  tally_.clear();
 }
 
 void PlannerDiagnostics::restart() { last_time_ = 0.0; }
@@ -63,19 +67,28 @@ double PlannerDiagnostics::rate(std::uint64_t count, std::uint64_t last_count) c
 }
 
 void PlannerDiagnostics::describeCycle(Status& status) {
-  if (cycles_ == 0) {
-    status.summary(DiagnosticStatus::ERROR, "no planning cycle since the last report");
-  } else if (misses_ > 0) {
-    status.summaryf(DiagnosticStatus::WARN, "%u of %lu cycles missed their deadline", misses_,
-                    static_cast<unsigned long>(cycles_));
-  } else {
-    status.summary(DiagnosticStatus::OK, planner_status_.started ? "planning" : "waiting");
+  status.summary(DiagnosticStatus::OK, planner_status_.started ? "planning" : "waiting");
+  if (tally_.cycles() == 0) status.summary(DiagnosticStatus::ERROR, "no planning cycle since the last report");
+  if (tally_.deadlineMisses() > 0) {
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%zu of %zu cycles missed their deadline", tally_.deadlineMisses(),
+                         tally_.cycles());
   }
-  status.addf("cycle time, mean [ms]", "%.2f", cycles_ > 0 ? 1e3 * time_sum_ / static_cast<double>(cycles_) : 0.0);
-  status.addf("cycle time, max [ms]", "%.2f", 1e3 * time_max_);
+  if (tally_.outOfTime() > 0) {
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%zu of %zu cycles had no time to plan for every UAV",
+                         tally_.outOfTime(), tally_.cycles());
+  }
+  if (tally_.refusedTracks() > 0) {
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%zu obstacle tracks could not be used", tally_.refusedTracks());
+  }
+  status.addf("cycle time, mean [ms]", "%.2f", 1e3 * tally_.meanCycleTime());
+  status.addf("cycle time, max [ms]", "%.2f", 1e3 * tally_.maxCycleTime());
   status.addf("cycle period [ms]", "%.0f", 1e3 * cycle_period_);
   status.add("cycles", planner_status_.cycle);
   status.add("deadline misses", planner_status_.deadline_misses);
+  status.add("cycles out of time since the last report", tally_.outOfTime());
+  status.add("plans rejected since the last report", tally_.rejectedPlans());
+  status.add("plans rejected", planner_status_.rejected_plans);
+  status.add("obstacle tracks refused", tally_.refusedTracks());
 }
 
 void PlannerDiagnostics::describeTracks(Status& status) {
@@ -98,8 +111,13 @@ void PlannerDiagnostics::describeUav(std::size_t uav, Status& status) {
   const UavInput& input = uavs_[uav];
   if (uav < planner_status_.uavs.size()) {
     const UavStatus& state = planner_status_.uavs[uav];
-    const std::string text = stateText(static_cast<UavState>(state.state));
-    status.summary(levelOf(state), state.reason.empty() ? text : text + ": " + state.reason);
+    status.summary(levelOf(state), textOf(state));
+    if (uav < tally_.worst().size() && levelOf(tally_.worst()[uav]) > levelOf(state)) {
+      status.summary(levelOf(tally_.worst()[uav]),
+                     textOf(state) + "; since the last report: " + textOf(tally_.worst()[uav]));
+    }
+    status.add("plan refused because", state.refusal.empty() ? "not refused" : state.refusal);
+    status.addf("deviation [m]", "%.3f", state.deviation);
     status.addf("lag [m]", "%.1f", state.lag);
     status.addf("predicted clearance to obstacles [m]", "%.2f", state.obstacle_clearance);
     status.addf("predicted distance to UAVs [m]", "%.2f", state.uav_distance);

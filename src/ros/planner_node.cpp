@@ -2,6 +2,7 @@
 #include "swarm_planner/ros/planner_node.hpp"
 
 #include <ros/console.h>
+#include <ros/time.h>
 
 #include <algorithm>
 #include <optional>
@@ -15,6 +16,9 @@
 
 namespace swarm_planner {
 namespace {
+
+// Between two messages of a kind to the console [s].
+constexpr double kWarningPeriod = 5.0;
 
 std::vector<std::string> namesOf(const SwarmPlanner& planner) {
   std::vector<std::string> names;
@@ -40,7 +44,8 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       inputs_(names_, frame_, options, mission.parameters.input),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
-      markers_(mission, frame_, options, inputs_) {
+      markers_(mission, frame_, options, inputs_),
+      budget_(options.planning_share) {
   if (options.setpoint_horizon < 2.0 * cycle_period_) {
     ROS_WARN("setpoint_horizon is %.2f s: vehicles run out of setpoints when one cycle of %.2f s is lost",
              options.setpoint_horizon, cycle_period_);
@@ -65,10 +70,11 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   // After a late cycle the timer catches up; what it asks for has been planned.
   if (epoch < last_epoch_ + 0.5 * cycle_period_) return;
   last_epoch_ = epoch;
+  if (ros::Time::isSimTime()) budget_.noteCycle(now, ros::SteadyTime::now().toSec());
   outputs_.sendWaitingSetpoints();
   inputs_.store().fill(now, snapshot_);
   snapshot_.now = std::min(snapshot_.now, epoch);
-  planner_.plan(snapshot_, epoch);
+  planner_.plan(snapshot_, epoch, budget_.forPlansDueIn(epoch - toSeconds(ros::Time::now())));
   const bool deadline_missed = toSeconds(ros::Time::now()) > epoch;
   publishCycle(now, deadline_missed);
 }
@@ -81,23 +87,27 @@ void PlannerNode::publishCycle(double now, bool deadline_missed) {
   std::vector<std::string> reasons;
   for (std::size_t uav = 0; uav < names_.size(); ++uav) {
     reasons.push_back(describeReason(planner_, uav, uavs, inputs_.odometryTopic(uav)));
+    rejected_plans_ += planner_.report().uavs[uav].refusal != CheckReason::kAccepted ? 1 : 0;
   }
-  toMessage(planner_, {now, frame_, deadline_missed, deadline_misses_}, reasons, status_);
+  toMessage(planner_, {now, frame_, deadline_missed, deadline_misses_, rejected_plans_}, reasons, status_);
   outputs_.publishStatus(status_);
   diagnostics_.addCycle(status_);
   markers_.update(planner_, status_);
   if (deadline_missed) {
-    ROS_WARN_THROTTLE(5.0, "Cycle missed its deadline: planning took %.0f ms (%u so far)", 1e3 * status_.cycle_time,
-                      deadline_misses_);
+    ROS_WARN_THROTTLE(kWarningPeriod, "Cycle missed its deadline: planning took %.0f ms (%u so far)",
+                      1e3 * status_.cycle_time, deadline_misses_);
   }
-  const bool held = std::any_of(reasons.begin(), reasons.end(), [](const std::string& text) { return !text.empty(); });
-  if (held) {
-    std::string text;
-    for (std::size_t uav = 0; uav < names_.size(); ++uav) {
-      if (!reasons[uav].empty()) text += "\n  " + names_[uav] + ": " + reasons[uav];
-    }
-    ROS_WARN_STREAM_THROTTLE(5.0, "Not every UAV is tracking:" << text);
+  tellOperator();
+}
+
+void PlannerNode::tellOperator() const {
+  std::string alarms;
+  std::string warnings;
+  for (const UavStatus& uav : status_.uavs) {
+    if (!uav.reason.empty()) (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
   }
+  if (!alarms.empty()) ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "ALARM, safety is not assured:" << alarms);
+  if (!warnings.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Not every UAV is tracking:" << warnings);
 }
 
 void PlannerNode::resetAfterTimeJump(double now) {

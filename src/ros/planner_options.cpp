@@ -37,6 +37,7 @@ const std::vector<NodeParameter>& plannerNodeTable() {
       {"trajectory_topic", "setpoints of a UAV, {uav} stands for its name", std::string(kDefaultTrajectoryTopic)},
       {"planning_frame", "frame to plan in, empty: the scenario's frame_id", std::string()},
       {"odometry_twist_frame", "axes of odometry twists: body or world", std::string("body")},
+      {"planning_share", "of the time until the epoch that planning may take", 0.8, false, 0.001, 1.0},
       {"setpoint_dt", "time between setpoints [s]", 0.05, false, 0.001, 1.0},
       {"setpoint_horizon", "time that setpoints cover [s], .inf: the whole plan", kInfinity, false, 0.001},
       {"setpoint_delivery", "when setpoints are sent: at_once or at_epoch", std::string("at_once")},
@@ -58,6 +59,7 @@ PlannerNodeOptions takePlannerNodeOptions(ParameterMap& given, Faults& faults) {
   options.trajectory_topic = text("trajectory_topic");
   options.planning_frame = text("planning_frame");
   options.odometry_twist_frame = twistFrame(text("odometry_twist_frame"), faults);
+  options.planning_share = number("planning_share");
   options.setpoint_dt = number("setpoint_dt");
   options.setpoint_horizon = number("setpoint_horizon");
   options.setpoint_delivery = setpointDelivery(text("setpoint_delivery"), faults);

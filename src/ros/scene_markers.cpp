@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/scene_markers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,8 @@ using visualization_msgs::Marker;
 constexpr int kObstacleSlices = 40;
 // How far ahead a velocity arrow points [s].
 constexpr double kArrowTime = 4.0;
+// Characters in a line of a label; a note in a single line would run off the screen.
+constexpr std::size_t kLabelWidth = 36;
 // Slower is shown as standing still [m/s].
 constexpr double kStandstill = 1e-3;
 
@@ -33,6 +36,33 @@ std::vector<geometry_msgs::Point> toPoints(const std::vector<Vector3>& vectors) 
   points.reserve(vectors.size());
   for (const Vector3& vector : vectors) points.push_back(toPoint(vector));
   return points;
+}
+
+std_msgs::ColorRGBA alarmColor(float alpha) { return color(0.9F, 0.0F, 0.0F, alpha); }
+
+std_msgs::ColorRGBA textColor(Concern concern) {
+  switch (concern) {
+    case Concern::kNone:
+      return color(0.1F, 0.1F, 0.12F, 1.0F);
+    case Concern::kCaution:
+      return color(0.85F, 0.4F, 0.0F, 1.0F);
+    case Concern::kAlarm:
+      break;
+  }
+  return alarmColor(1.0F);
+}
+
+/// `text` with line breaks in place of blanks, so that lines that can be broken are no longer than `width`.
+std::string wrapped(std::string text, std::size_t width) {
+  std::size_t begin = 0;
+  while (text.size() - begin > width) {
+    std::size_t blank = text.rfind(' ', begin + width);
+    if (blank == std::string::npos || blank < begin) blank = text.find(' ', begin);
+    if (blank == std::string::npos) break;
+    text[blank] = '\n';
+    begin = blank + 1;
+  }
+  return text;
 }
 
 void setScale(const Vector3& scale, Marker& marker) { marker.scale = toVector3Message(scale); }
@@ -72,6 +102,7 @@ visualization_msgs::Marker& SceneMarkers::add(const char* ns, int id, int type) 
 }
 
 void SceneMarkers::addUav(int index, const UavDrawing& uav) {
+  const bool alarm = uav.concern == Concern::kAlarm;
   if (uav.located) {
     Marker& body = add("uav", index, Marker::TRIANGLE_LIST);
     body.pose.position = toPoint(uav.position);
@@ -83,13 +114,15 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
     Marker& separation = add("separation", index, Marker::SPHERE);
     separation.pose.position = body.pose.position;
     setScale(2.0 * sizes_.pair_axes, separation);
-    separation.color = uavColor(index, 0.2F);
+    separation.color = alarm ? alarmColor(0.45F) : uavColor(index, 0.2F);
 
     Marker& label = add("label", index, Marker::TEXT_VIEW_FACING);
-    label.pose.position = toPoint(uav.position + sizes_.uav * Vector3::UnitZ());
     label.scale.z = 0.8 * sizes_.uav;
-    label.text = uav.note.empty() ? uav.name : uav.name + ": " + uav.note;
-    label.color = uav.note.empty() ? color(0.1F, 0.1F, 0.12F, 1.0F) : color(0.85F, 0.1F, 0.05F, 1.0F);
+    label.text = wrapped(uav.note.empty() ? uav.name : uav.name + ": " + uav.note, kLabelWidth);
+    // Text is centred about its position: of many lines the last is to stay above the UAV.
+    const auto breaks = static_cast<double>(std::count(label.text.begin(), label.text.end(), '\n'));
+    label.pose.position = toPoint(uav.position + (sizes_.uav + 0.5 * breaks * label.scale.z) * Vector3::UnitZ());
+    label.color = textColor(uav.concern);
   }
   if (uav.trail.size() > 1) {
     Marker& trail = add("trail", index, Marker::LINE_STRIP);
@@ -97,17 +130,25 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
     trail.scale.x = 0.12 * sizes_.uav;
     trail.color = uavColor(index, 0.9F);
   }
-  if (uav.planned) {
-    Marker& plan = add("plan", index, Marker::LINE_STRIP);
-    constexpr int kPointsPerSegment = 2;
-    // A line of one point is none: a motion at rest is drawn from its place to the same.
-    for (int i = 0; i <= std::max(1, kPointsPerSegment * uav.plan.pieces()); ++i) {
-      plan.points.push_back(toPoint(uav.plan.after(i * uav.plan.dt() / kPointsPerSegment).p));
-    }
-    plan.scale.x = 0.3 * sizes_.uav;
-    plan.color = uavColor(index, 0.45F);
-  }
+  if (uav.planned) addPlan(index, uav);
   if (uav.targeted) addTarget(index, uav);
+}
+
+void SceneMarkers::addPlan(int index, const UavDrawing& uav) {
+  const bool alarm = uav.concern == Concern::kAlarm;
+  Marker& plan = add("plan", index, Marker::LINE_STRIP);
+  constexpr int kPointsPerSegment = 2;
+  // A line of one point is none: a motion at rest is drawn from its place to the same.
+  for (int i = 0; i <= std::max(1, kPointsPerSegment * uav.plan.pieces()); ++i) {
+    plan.points.push_back(toPoint(uav.plan.after(i * uav.plan.dt() / kPointsPerSegment).p));
+  }
+  plan.scale.x = 0.3 * sizes_.uav;
+  plan.color = alarm ? alarmColor(0.9F) : uavColor(index, 0.45F);
+
+  Marker& rest = add("rest", index, Marker::CUBE);
+  rest.pose.position = toPoint(uav.plan.restingPlace());
+  setScale(Vector3::Constant(0.35 * sizes_.uav), rest);
+  rest.color = alarm ? alarmColor(0.9F) : uavColor(index, 0.9F);
 }
 
 void SceneMarkers::addTarget(int index, const UavDrawing& uav) {
@@ -151,12 +192,12 @@ void SceneMarkers::removeObstacle(int id) {
   for (const char* ns : {"obstacle", "velocity"}) add(ns, id, Marker::TRIANGLE_LIST).action = Marker::DELETE;
 }
 
-void SceneMarkers::addStatus(const Vector3& position, const std::string& text) {
+void SceneMarkers::addStatus(const Vector3& position, const std::string& text, Concern concern) {
   Marker& line = add("status", 0, Marker::TEXT_VIEW_FACING);
   line.pose.position = toPoint(position);
   line.scale.z = sizes_.text;
   line.text = text;
-  line.color = color(0.1F, 0.1F, 0.12F, 1.0F);
+  line.color = textColor(concern);
 }
 
 void SceneMarkers::removeAll() { add("", 0, Marker::CUBE).action = Marker::DELETEALL; }

@@ -40,7 +40,7 @@ std::string describeReason(const SwarmPlanner& planner, std::size_t uav, const s
   }
   if (reason == Reason::kWaitingForOthers) return "waiting for odometry of " + missingNames(planner, inputs);
   if (reason == Reason::kOdometryStale && !fault.empty()) return std::string(reasonText(reason)) + ": " + fault;
-  return reasonText(reason);
+  return explainReason(reason, planner.report().uavs[uav].refusal);
 }
 
 void toMessage(const SwarmPlanner& planner, const CycleContext& context, const std::vector<std::string>& reasons,
@@ -55,6 +55,9 @@ void toMessage(const SwarmPlanner& planner, const CycleContext& context, const s
   message.cycle_time = report.cycle_time;
   message.deadline_missed = context.deadline_missed;
   message.deadline_misses = context.deadline_misses;
+  message.out_of_time = report.out_of_time;
+  message.rejected_plans = context.rejected_plans;
+  message.refused_tracks = static_cast<std::uint32_t>(report.refused_tracks);
   message.uavs.resize(report.uavs.size());
   for (std::size_t uav = 0; uav < report.uavs.size(); ++uav) {
     const UavReport& from = report.uavs[uav];
@@ -62,11 +65,14 @@ void toMessage(const SwarmPlanner& planner, const CycleContext& context, const s
     to.name = planner.uavName(uav);
     to.state = static_cast<std::uint8_t>(from.state);
     to.reason = reasons[uav];
+    to.alarm = isAlarm(from.reason);
+    to.refusal = from.refusal == CheckReason::kAccepted ? "" : checkReasonText(from.refusal);
     to.planned = from.planned;
     to.solve_time = from.solve_time;
     to.sqp_iterations = static_cast<std::uint32_t>(from.sqp_iterations);
     to.qp_iterations = static_cast<std::uint32_t>(from.qp_iterations);
     to.max_slack = from.max_slack;
+    to.deviation = from.deviation;
     to.obstacle_clearance = from.obstacle_clearance;
     to.uav_distance = from.pair_distance;
     to.lag = from.lag;

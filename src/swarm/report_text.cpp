@@ -1,4 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <algorithm>
+#include <string>
+
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
@@ -37,6 +40,15 @@ const char* reasonText(Reason reason) {
       return "strays from its plan by more than tracking_margin";
   }
   return "unknown reason";
+}
+
+std::string explainReason(Reason reason, CheckReason refusal) {
+  std::string text = reasonText(reason);
+  const bool refused = reason == Reason::kPlanRefused || reason == Reason::kBraking || reason == Reason::kNoSafePlan;
+  if (!refused || refusal == CheckReason::kAccepted) return text;
+  // "what happened; what flies": the cause belongs to the first.
+  const std::size_t end = std::min(text.find(';'), text.size());
+  return text.insert(end, std::string(" (") + checkReasonText(refusal) + ")");
 }
 
 const char* stateText(UavState state) {

@@ -9,6 +9,7 @@
 
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/ros/input_store.hpp"
+#include "swarm_planner/ros/status_tally.hpp"
 
 namespace swarm_planner {
 
@@ -38,10 +39,8 @@ class PlannerDiagnostics {
   PlannerStatus planner_status_;
   std::vector<UavInput> uavs_, last_uavs_;
   TrackInput tracks_, last_tracks_;
-  double now_ = 0.0, last_time_ = 0.0;      ///< [s]
-  std::uint64_t cycles_ = 0;                ///< since the last publication
-  std::uint32_t misses_ = 0;                ///< since the last publication
-  double time_sum_ = 0.0, time_max_ = 0.0;  ///< of cycles since the last publication [s]
+  double now_ = 0.0, last_time_ = 0.0;  ///< [s]
+  StatusTally tally_;                   ///< since the last publication
 };
 
 }  // namespace swarm_planner

@@ -17,6 +17,7 @@
 #include "swarm_planner/ros/planner_inputs.hpp"
 #include "swarm_planner/ros/planner_options.hpp"
 #include "swarm_planner/ros/planner_outputs.hpp"
+#include "swarm_planner/ros/planning_budget.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
@@ -33,6 +34,8 @@ class PlannerNode {
  private:
   void runCycle(const ros::TimerEvent& event);
   void publishCycle(double now, bool deadline_missed);
+  /// Warns of UAVs that do not track, and raises the alarm for those that are not safe.
+  void tellOperator() const;
   void resetAfterTimeJump(double now);
   bool setReference(SetReference::Request& request, SetReference::Response& response);
   std::vector<Vector3> pathInPlanningFrame(const SetReference::Request& request) const;
@@ -47,11 +50,13 @@ class PlannerNode {
   PlannerDiagnostics diagnostics_;
   MarkerPublisher markers_;
 
+  PlanningBudget budget_;
   Snapshot snapshot_;
   PlannerStatus status_;
   double last_now_ = 0.0;    ///< ROS time of the last cycle [s]
   double last_epoch_ = 0.0;  ///< of the last cycle's plans [s]
   std::uint32_t deadline_misses_ = 0;
+  std::uint32_t rejected_plans_ = 0;
 
   ros::Timer cycle_timer_;
   ros::WallTimer diagnostics_timer_;

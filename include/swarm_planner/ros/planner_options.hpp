@@ -15,7 +15,7 @@ enum class SetpointDelivery {
   kAtEpoch,  ///< when they take effect, for drivers that fly whatever comes at once
 };
 
-/// Parameters that planner_node has beside those of the planner: topics, frames, messages, markers.
+/// Parameters that planner_node has beside those of the planner: topics, frames, time to plan, messages, markers.
 /// config/node.yaml describes each.
 struct PlannerNodeOptions {
   std::string scenario;          ///< path of the scenario file
@@ -23,6 +23,7 @@ struct PlannerNodeOptions {
   std::string trajectory_topic;  ///< with {uav}
   std::string planning_frame;    ///< empty: the scenario's frame_id
   TwistFrame odometry_twist_frame = TwistFrame::kBody;
+  double planning_share = 0.8;    ///< of the time until the epoch that planning may take
   double setpoint_dt = 0.05;      ///< [s]
   double setpoint_horizon = 0.0;  ///< [s], infinity: the whole plan
   SetpointDelivery setpoint_delivery = SetpointDelivery::kAtOnce;

@@ -11,6 +11,7 @@
 
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/ros/status_tally.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
 
 namespace swarm_planner {
@@ -25,20 +26,22 @@ struct MarkerSizes {
 /// What is drawn of one UAV.
 struct UavDrawing {
   std::string name;
-  std::string note;      ///< shown beside the name; empty if all is well
+  std::string note;  ///< shown beside the name; empty if all is well
+  Concern concern = Concern::kNone;
   bool located = false;  ///< position and orientation are known
   Vector3 position = Vector3::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   std::vector<Vector3> trail;
-  bool planned = false;  ///< `plan` holds a plan
+  bool planned = false;  ///< `plan` holds what it is to fly
   CommittedMotion plan;
   bool targeted = false;  ///< `reference` and `target` are known
   MovingTarget reference;
   TargetState target;
 };
 
-/// Makes rviz markers of a swarm. Namespaces, to switch on and off in rviz: uav, label, trail, plan, reference, target,
-/// separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id.
+/// Makes rviz markers of a swarm. Namespaces, to switch on and off in rviz: uav, label, trail, plan, rest, reference,
+/// target, separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id. The label of a UAV
+/// that is of concern is orange; where there is an alarm, label, plan and separation are red.
 class SceneMarkers {
  public:
   SceneMarkers(std::string frame, const MarkerSizes& sizes);
@@ -50,13 +53,15 @@ class SceneMarkers {
   /// Surface, and an arrow of four seconds' way if it moves. `now` [s]: where it has moved to.
   void addObstacle(const TrackedObstacle& obstacle, double now);
   void removeObstacle(int id);
-  void addStatus(const Vector3& position, const std::string& text);
+  /// `concern`: the greatest of all UAVs.
+  void addStatus(const Vector3& position, const std::string& text, Concern concern);
   void removeAll();
 
   const visualization_msgs::MarkerArray& message() const { return message_; }
 
  private:
   visualization_msgs::Marker& add(const char* ns, int id, int type);
+  void addPlan(int index, const UavDrawing& uav);
   void addTarget(int index, const UavDrawing& uav);
 
   const std::string frame_;

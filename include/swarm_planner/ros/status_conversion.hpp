@@ -17,10 +17,12 @@ struct CycleContext {
   std::string frame;   ///< planning frame
   bool deadline_missed = false;
   std::uint32_t deadline_misses = 0;
+  std::uint32_t rejected_plans = 0;
 };
 
 /// A UAV's reason in words for operators: that of the planner, made concrete by what its input knows (the fault of the
-/// newest message, the topic that stays silent, who is waited for). Empty if all is well.
+/// newest message, the topic that stays silent, who is waited for) and by why the check refused the plan. Empty if all
+/// is well.
 std::string describeReason(const SwarmPlanner& planner, std::size_t uav, const std::vector<UavInput>& inputs,
                            const std::string& odometry_topic);
 

@@ -63,6 +63,8 @@ enum class Reason : std::uint8_t {
 bool isAlarm(Reason reason);
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
+/// The same, with why the check refused the solver's plan where that is what led there.
+std::string explainReason(Reason reason, CheckReason refusal);
 const char* stateText(UavState state);
 
 /// Result of one cycle for one UAV.

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+"""Breaks for the user: vehicles that run out of setpoints because planning takes too long, or an operator who is not
+told that it does."""
+
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rosgraph_msgs.msg import Clock
+from swarm_harness import Planner, Recorder, three_in_line, wait_for
+from swarm_planner.msg import UavStatus
+
+NO_TIME = 'no time left to plan; the last plan goes on'
+
+
+class OutOfTimeTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('test_out_of_time')
+        cls.planner = Planner()
+        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.vehicles = three_in_line()
+        cls.clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        # Of simulated time, in which planning may take 0.6 ms of each cycle: enough for at least one UAV.
+        cls.speed = 1.0
+        threading.Thread(target=cls.run_clock, daemon=True).start()
+
+    @classmethod
+    def run_clock(cls):
+        now = 500.0
+        while not rospy.is_shutdown():
+            step = 0.1 if cls.speed > 1.0 else 0.02
+            now += step
+            stamp = rospy.Time.from_sec(now)
+            cls.clock.publish(Clock(clock=stamp))
+            for vehicle in cls.vehicles:
+                vehicle.publish(stamp)
+            time.sleep(step / cls.speed)
+
+    def wait_until_all_have_tracked(self):
+        """Each at some time: who misses its turn comes first in the next cycle."""
+        self.planner.status.clear()
+        wait_for(lambda: {uav.name for status in self.planner.status.all() for uav in status.uavs
+                          if uav.state == UavStatus.TRACKING and uav.planned} == {'uav1', 'uav2', 'uav3'},
+                 'a plan for every UAV')
+
+    def out_of_time(self):
+        return [status for status in self.planner.status.all()
+                if status.out_of_time and any(uav.reason == NO_TIME for uav in status.uavs)]
+
+    def test_motions_go_on(self):
+        self.planner.wait_for_start()
+        self.wait_until_all_have_tracked()
+
+        type(self).speed = 40.0
+        self.planner.status.clear()
+        wait_for(lambda: len(self.out_of_time()) > 20, 'cycles without time to plan')
+        for vehicle in self.vehicles:
+            vehicle.trajectories.wait_for_more(5)
+        plans = {message.cycle: {plan.name for plan in message.plans} for message in self.planner.plans.all()}
+        compared = 0
+        for status in self.out_of_time():
+            late = [uav for uav in status.uavs if uav.reason == NO_TIME]
+            self.assertTrue(all(uav.state == UavStatus.FALLBACK and uav.planned for uav in late), status)
+            self.assertFalse(any(uav.alarm for uav in status.uavs), status)
+            if status.cycle in plans:
+                compared += 1
+                self.assertLessEqual({uav.name for uav in late}, plans[status.cycle])
+        self.assertGreater(compared, 0)
+        wait_for(lambda: any('had no time to plan for every UAV' in entry.message
+                             and entry.level == DiagnosticStatus.WARN
+                             for array in self.diagnostics.all() for entry in array.status), 'a warning')
+
+        type(self).speed = 1.0
+        self.wait_until_all_have_tracked()
+
+
+if __name__ == '__main__':
+    rostest.rosrun('swarm_planner', 'out_of_time', OutOfTimeTest)
