@@ -69,7 +69,7 @@ TEST(SolveOrder, KeepsNeighboursInTheOrderOfTheirIndices) {
   SolveOrder order;
   for (const double spread : {5.0, 40.0, 500.0}) {
     lists.build(randomBoxes(200, spread, 10.0, random));
-    order.build(lists);
+    order.build(lists, 0);
     std::vector<int> round_of(200, -1);
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       for (std::size_t position = order.roundBegin(round); position < order.roundBegin(round + 1); ++position) {
@@ -93,7 +93,7 @@ TEST(SolveOrder, TakesOneRoundWhereNobodyMeets) {
   NeighbourLists lists;
   lists.build(boxes);
   SolveOrder order;
-  order.build(lists);
+  order.build(lists, 0);
   EXPECT_EQ(order.rounds(), 1U);
 }
 
