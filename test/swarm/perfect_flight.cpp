@@ -52,11 +52,11 @@ PerfectFlight::PerfectFlight(const Mission& mission, double start_time)
   snapshot_.uavs.resize(mission.scenario.uavs.size());
 }
 
-const CycleReport& PerfectFlight::cycle(const std::function<void(Snapshot&)>& tamper) {
+const CycleReport& PerfectFlight::cycle(const std::function<void(Snapshot&)>& tamper, double budget) {
   measure();
   if (tamper) tamper(snapshot_);
   const double epoch = now_ + mission_.parameters.time.cycle_period;
-  const CycleReport& report = planner_.plan(snapshot_, epoch);
+  const CycleReport& report = planner_.plan(snapshot_, epoch, budget);
   watch(now_, epoch);
   now_ = epoch;
   for (std::size_t i = 0; i < flown_.size(); ++i) {

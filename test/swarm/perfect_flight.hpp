@@ -32,8 +32,10 @@ class PerfectFlight {
  public:
   explicit PerfectFlight(const Mission& mission, double start_time = 0.0);
 
-  /// One cycle: measure, plan for the next epoch, fly until then. `tamper` may spoil the snapshot before.
-  const CycleReport& cycle(const std::function<void(Snapshot&)>& tamper = nullptr);
+  /// One cycle: measure, plan for the next epoch within `budget` [s], fly until then. `tamper` may spoil the snapshot
+  /// before.
+  const CycleReport& cycle(const std::function<void(Snapshot&)>& tamper = nullptr,
+                           double budget = std::numeric_limits<double>::infinity());
   void cycles(int count) {
     for (int i = 0; i < count; ++i) cycle();
   }
