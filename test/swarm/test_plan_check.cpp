@@ -710,37 +710,5 @@ TEST(DistanceBound, IsNeverAboveTheDistanceAndExactBesideASphere) {
   EXPECT_NEAR(distanceBound(sphere, Vector3(0.0, 0.0, 3.0)), 2.0, 1e-9);
 }
 
-TEST(CommittedMotion, IsItsPlanThenItsStopThenRest) {
-  Random random(9);
-  for (int n = 0; n < 200; ++n) {
-    CheckScene scene;
-    scene.planRandomly(random, 4.0);
-    const CommittedMotion& motion = scene.motion;
-    for (int i = 0; i < 50; ++i) {
-      const double t = random.uniform(-0.1, 1.3 * motion.duration());
-      const KinematicState x = motion.after(t);
-      if (t <= scene.trajectory.duration()) {
-        const KinematicState planned = scene.trajectory.after(t);
-        ASSERT_LT((x.p - planned.p).norm(), 1e-10);
-        ASSERT_LT((x.v - planned.v).norm(), 1e-9);
-        ASSERT_LT((x.a - planned.a).norm(), 1e-7);
-      }
-      if (t >= motion.duration()) {
-        ASSERT_EQ(x.p, motion.restingPlace());
-        ASSERT_EQ(x.v.norm() + x.a.norm(), 0.0);
-      }
-      if (t < 0.0) continue;
-      Box box = motion.boxOver(t, t + 0.5);
-      ASSERT_TRUE(box.near({x.p, x.p}, 1e-7));
-      ASSERT_TRUE(motion.box().near({x.p, x.p}, 1e-12));
-    }
-    CommittedMotion rest = motion;
-    const int dropped = random.integer(0, motion.pieces());
-    rest.dropPieces(dropped);
-    const double t = random.uniform(0.0, motion.duration());
-    ASSERT_LT((rest.after(t).p - motion.after(t + dropped * motion.dt()).p).norm(), 1e-9);
-  }
-}
-
 }  // namespace
 }  // namespace swarm_planner
