@@ -65,7 +65,7 @@ TEST(CommittedMotion, OfAStopBrakesAtOnce) {
   motion.assignStop(100.0, stop);
   EXPECT_EQ(motion.pieces(), stop.stages);
   EXPECT_LT((motion.at(100.0).p - start.p).norm() + (motion.at(100.0).v - start.v).norm(), 1e-12);
-  EXPECT_EQ(motion.at(100.0 + motion.duration()).v.norm(), 0.0);
+  EXPECT_EQ(motion.after(motion.duration()).v.norm(), 0.0);
   EXPECT_LT((motion.restingPlace() - stop.knots[static_cast<std::size_t>(stop.stages)].p).norm(), 1e-12);
 }
 
