@@ -669,7 +669,7 @@ TEST(Induction, AnAcceptedMotionStaysAccepted) {
         limits.pair_vertical -= 1e-5;
         limits.pair_margin = 0.0;
         limits.look_ahead -= rest.epoch() - scene.motion.epoch() - (scene.motion.duration() - rest.duration());
-        return checkClearance(rest, limits, surroundings);
+        return checkClearance(rest, scene.committed, limits, surroundings);
       };
       const CheckVerdict verdict = recheck(1.0);
       ASSERT_TRUE(verdict.accepted()) << n << " " << checkReasonText(verdict.reason) << " at " << verdict.time;
