@@ -153,9 +153,14 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry)
   };
   // What `d` has beyond the least semi-axes, at most `most`, negative if it has less than them.
   const auto marginOf = [&](const Vector3& d, double most) {
-    double margin = most;
-    while (margin > kDeep && gauge(d, margin) < 1.0) margin -= 1e-5;
-    return margin;
+    if (gauge(d, most) >= 1.0) return most;
+    double too_much = most;
+    double has = 1e-3 - std::min(horizontal, vertical);
+    while (too_much - has > 1e-9) {
+      const double middle = 0.5 * (has + too_much);
+      (gauge(d, middle) < 1.0 ? too_much : has) = middle;
+    }
+    return has;
   };
   const double most = scene.limits.margin_time > 0.0 ? scene.limits.pair_margin : 0.0;
   const double at_start = marginOf(apart(0.0), most);
