@@ -169,7 +169,7 @@ class ObstacleCheck {
     double waived = margin_;
     if (missing > margin_) {
       const Vector3 before = committed - center_;
-      waived = std::max(margin_, distance_ - body_.signedDistance(body_.center() + before));
+      waived = std::max(margin_, distance_ - body_.signedDistance(body_.center() + before) + kDistanceTolerance);
       waived = std::min(waived, distance_);
     }
     if (missing > waived) return false;
