@@ -70,6 +70,17 @@ TEST(FlownPath, GrowsBitByBit) {
   EXPECT_FALSE(path.covers(101.51));
 }
 
+// Memory is short: what is known already must not take it twice.
+TEST(FlownPath, KeepsNothingTwice) {
+  Random random(7);
+  const CommittedMotion motion = wandering(random, 100.0);
+  FlownPath path;
+  path.append(motion, 100.0 + 10.0 * kDt);
+  path.append(motion, 100.0 + 20.0 * kDt);
+  ASSERT_TRUE(path.covers(100.0));
+  expectSame(path.at(100.1), motion.at(100.1), 100.1);
+}
+
 TEST(FlownPath, OfAMotionThatRestsStaysThere) {
   Random random(4);
   const CommittedMotion motion = wandering(random, 100.0);
@@ -81,7 +92,8 @@ TEST(FlownPath, OfAMotionThatRestsStaysThere) {
   CommittedMotion rest;
   rest.assignRest(100.0, Vector3(1, 2, 3));
   FlownPath still;
-  still.append(rest, 110.0);
+  still.append(rest, 300.0);
+  ASSERT_TRUE(still.covers(100.0)) << "a long rest takes no more memory than a short one";
   EXPECT_EQ(still.at(105.0).p, Vector3(1, 2, 3));
   EXPECT_EQ(still.at(105.0).v.norm(), 0.0);
 }
