@@ -12,8 +12,7 @@ constexpr double kStep = 0.05;  // [s]
 double obstacleShortfall(const Vector3& p, double t, const PredictedObstacle& obstacle) {
   if (t > obstacle.valid_until) return 0.0;
   const double age = t - obstacle.stamp;
-  const double least =
-      obstacle.least_distance + obstacle.growth_rate * std::clamp(age, 0.0, obstacle.growth_time);
+  const double least = obstacle.least_distance + obstacle.growth_rate * std::clamp(age, 0.0, obstacle.growth_time);
   const Superellipsoid& body = *obstacle.body;
   const Vector3 relative = p - age * body.velocity() - body.center();
   if (((relative.cwiseAbs() - body.halfExtents()).array() > least).any()) return 0.0;

@@ -158,10 +158,11 @@ class SwarmPlanner::Impl {
     report.uavs[i].reason = Reason::kOverrun;
   }
 
-  /// Who missed its turn comes first in the next cycle, so that nobody misses it for ever.
+  /// Whose turn came first of those that missed it comes first in the next cycle, so that nobody misses it for ever.
+  /// By turn, not by round: the first of a later round could be passed over again and again.
   void noteOverrun() {
-    for (std::size_t position = 0; position < uavs.size() && !report.out_of_time; ++position) {
-      const std::size_t i = order.uav(position);
+    for (std::size_t turn = 0; turn < uavs.size() && !report.out_of_time; ++turn) {
+      const std::size_t i = (first + turn) % uavs.size();
       if (report.uavs[i].reason != Reason::kOverrun) continue;
       report.out_of_time = true;
       first = i;

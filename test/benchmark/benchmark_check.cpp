@@ -11,6 +11,7 @@
 #include "swarm/check_scene.hpp"
 #include "swarm/perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
+#include "swarm_planner/swarm/plan_start.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -105,7 +106,8 @@ void noSurroundings(benchmark::State& state) {
   std::size_t next = 0;
   for (auto _ : state) {
     CheckScene& scene = scenes[next];
-    benchmark::DoNotOptimize(checkPlan(scene.trajectory, scene.start, scene.limits, nothing, scene.motion));
+    benchmark::DoNotOptimize(
+        checkPlan(scene.trajectory, scene.start, scene.committed, scene.limits, nothing, scene.motion));
     next = next + 1 < scenes.size() ? next + 1 : 0;
   }
 }
@@ -117,14 +119,14 @@ class SwarmScene {
     flight_.cycles(cycles);
     limits_ = defaultCheckLimits();
     limits_.bounds = FlightBounds(mission_.parameters, nullptr);
-    relax(limits_.bounds);
     const std::size_t count = mission_.scenario.uavs.size();
     for (std::size_t i = 0; i < mission_.scenario.obstacles.size(); ++i) {
       bodies_.push_back(flight_.obstacle(i, flight_.now()));
     }
     for (std::size_t i = 0; i < count; ++i) {
-      const Trajectory& plan = flight_.planner().committed(i);
-      checkPlan(plan, plan.knots[0], limits_, CheckSurroundings(), motions_.emplace_back());
+      const CommittedMotion& motion = motions_.emplace_back(flight_.planner().committed(i));
+      shiftPlan(motion, motion.after(0.0), motion.epoch(), mission_.parameters.time.sampling_time,
+                plans_.emplace_back());
     }
     for (std::size_t i = 0; i < count; ++i) surround(i);
   }
@@ -136,16 +138,11 @@ class SwarmScene {
     return sum / static_cast<double>(size());
   }
   CheckVerdict check(std::size_t uav) {
-    const Trajectory& plan = flight_.planner().committed(uav);
-    return checkPlan(plan, plan.knots[0], limits_, surroundings_[uav], scratch_);
+    const Trajectory& plan = plans_[uav];
+    return checkPlan(plan, plan.knots[0], plan.knots[0].p, limits_, surroundings_[uav], scratch_);
   }
 
  private:
-  /// Plans keep their bounds to within the solver's tolerance, the thrust at the knots only.
-  static void relax(FlightBounds& bounds) {
-    bounds.max_speed *= 1.02;
-    bounds.max_thrust_acceleration *= 1.02;
-  }
   void surround(std::size_t uav) {
     CheckSurroundings& around = surroundings_.emplace_back();
     for (const Superellipsoid& body : bodies_) {
@@ -157,7 +154,7 @@ class SwarmScene {
       around.obstacles.push_back(obstacle);
     }
     for (std::size_t j = 0; j < size(); ++j) {
-      if (j != uav && motions_[uav].box().near(motions_[j].box(), 2.2)) around.uavs.push_back(&motions_[j]);
+      if (j != uav && motions_[uav].box().near(motions_[j].box(), 2.2)) around.uavs.push_back({&motions_[j]});
     }
   }
 
@@ -166,6 +163,7 @@ class SwarmScene {
   CheckLimits limits_;
   std::deque<Superellipsoid> bodies_;
   std::deque<CommittedMotion> motions_;
+  std::deque<Trajectory> plans_;  ///< of the motions
   std::deque<CheckSurroundings> surroundings_;
   CommittedMotion scratch_;
 };

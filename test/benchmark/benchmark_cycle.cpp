@@ -39,6 +39,7 @@ class MidFlight {
       tracks[i].shape = flight_.obstacle(i, epoch_);
       tracks[i].stamp = epoch_;
     }
+    surroundings_.setEpoch(epoch_);
     surroundings_.setObstacles(tracks, epoch_);
     setMotions();
     surroundings_.findNeighbours();
@@ -49,7 +50,7 @@ class MidFlight {
 
   void setMotions() {
     for (std::size_t i = 0; i < uavCount(); ++i) {
-      surroundings_.setPlan(i, flight_.planner().committed(i), epoch_);
+      surroundings_.setMotions(i, flight_.planner().committed(i), nullptr);
       surroundings_.setPlanning(i, flight_.planner().committed(i).at(epoch_));
     }
   }
@@ -115,7 +116,7 @@ void cycle(benchmark::State& state) {
   perUav(state);
 }
 
-/// Every UAV's plan on the stages of the new horizon, and the box that it can reach.
+/// Every UAV's motion on the stages of the new horizon, and the box that it can reach.
 void predictMotions(benchmark::State& state) {
   MidFlight& swarm = midFlight(state);
   for (auto _ : state) swarm.setMotions();
@@ -128,7 +129,7 @@ void findNeighbours(benchmark::State& state) {
   SolveOrder order;
   for (auto _ : state) {
     swarm.surroundings().findNeighbours();
-    order.build(swarm.surroundings().neighbours());
+    order.build(swarm.surroundings().neighbours(), 0);
     benchmark::DoNotOptimize(order.rounds());
   }
   perUav(state);

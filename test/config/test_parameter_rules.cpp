@@ -64,6 +64,41 @@ TEST(ParameterRules, MarginIsATenthOfTheSmallerDistanceWithinBounds) {
   }
 }
 
+TEST(ParameterRules, PairMarginIsATenthOfThePairDistanceWithinBounds) {
+  const struct {
+    double uav_radius, pair_distance, margin;
+  } cases[] = {{0.3, 2.0, 0.2}, {0.3, 1.0, 0.1}, {0.3, 9.0, 0.2}, {0.3, 0.65, 0.065}, {0.01, 0.1, 0.02}};
+  for (const auto& expected : cases) {
+    const Parameters parameters =
+        resolved({}, {{"uav_radius", expected.uav_radius}, {"pair_distance", expected.pair_distance}});
+    EXPECT_DOUBLE_EQ(parameters.limits.pair_margin, expected.margin) << expected.pair_distance;
+  }
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.5}}).limits.pair_margin, 0.5) << "never less than tracking_margin";
+}
+
+// Plans may use up what the margins hold beyond it: all the error, and none of the rest, must be kept for good.
+TEST(ParameterRules, TrackingErrorIsHalfOfTheSmallerMargin) {
+  EXPECT_DOUBLE_EQ(resolved({}).limits.tracking_error, 0.03);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.5}}).limits.tracking_error, 0.15);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.1}}).limits.tracking_error, 0.05);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.0}}).limits.tracking_error, 0.0);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"tracking_error", 0.01}}).limits.tracking_error, 0.01);
+}
+
+TEST(ParameterRules, TrackingErrorHasRoomInBothMargins) {
+  const auto faults = [](double tracking_margin, double pair_margin, double error) {
+    Faults found;
+    resolveParameters({{"tracking_margin", tracking_margin}, {"pair_margin", pair_margin}, {"tracking_error", error}},
+                      {}, "", found);
+    return found.text();
+  };
+  EXPECT_EQ(faults(0.2, 0.4, 0.2), "");
+  EXPECT_NE(faults(0.2, 0.5, 0.21).find("tracking_error"), std::string::npos);
+  EXPECT_NE(faults(0.5, 0.4, 0.21).find("half of pair_margin"), std::string::npos)
+      << "two UAVs stray towards each other";
+  EXPECT_EQ(faults(0.0, 0.0, 0.0), "");
+}
+
 TEST(ParameterRules, WhatIsGivenStands) {
   const Parameters parameters = resolved({{"sampling_time", 0.2},
                                           {"cycle_period", 0.1},

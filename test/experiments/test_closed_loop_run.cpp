@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "support/flight_problem.hpp"
 #include "swarm_planner/experiments/closed_loop_run.hpp"
 
 namespace swarm_planner {
@@ -13,30 +14,31 @@ namespace {
 
 constexpr double kSpeed = 2.0;  // [m/s], along x
 
-/// Plans a flight along x at constant speed from where each UAV is measured, and keeps what it was given.
+/// Plans a flight along x at constant speed from where each UAV is measured, a stop after it, and keeps what it was
+/// given.
 class StraightPlanner : public CyclePlanner {
  public:
-  explicit StraightPlanner(std::size_t uavs) : plans_(uavs) { report_.uavs.resize(uavs); }
+  explicit StraightPlanner(std::size_t uavs) : motions_(uavs) { report_.uavs.resize(uavs); }
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
     snapshots.push_back(snapshot);
     epochs.push_back(epoch);
     ++report_.cycle;
     report_.cycle_time = cycle_time;
-    for (std::size_t i = 0; i < plans_.size(); ++i) {
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
       KinematicState start;
       start.p = snapshot.uavs[i].p + (epoch - snapshot.now) * snapshot.uavs[i].v;
       start.v = speed * Vector3::UnitX();
-      plans_[i].epoch = epoch;
-      plans_[i].dt = 0.3;
-      plans_[i].jerks.fill(Vector3::Zero());
-      rollOut(start, plans_[i]);
+      const Trajectory plan = straightPlan(start.p, start.v, epoch, 0.3);
+      StopManoeuvre stop;
+      rollOutStop(plan.knots.back(), 10, plan.dt, stop);
+      motions_[i].assign(plan, stop);
       report_.uavs[i] = uav_report;
       report_.uavs[i].planned = i != not_planned;
     }
     return report_;
   }
-  const Trajectory& committed(std::size_t uav) const override { return plans_[uav]; }
+  const CommittedMotion& committed(std::size_t uav) const override { return motions_[uav]; }
 
   UavReport uav_report;
   double cycle_time = 0.001;
@@ -47,7 +49,7 @@ class StraightPlanner : public CyclePlanner {
 
  private:
   CycleReport report_;
-  std::vector<Trajectory> plans_;
+  std::vector<CommittedMotion> motions_;
 };
 
 class Recorder : public RunObserver {
@@ -161,7 +163,7 @@ TEST(ClosedLoopRun, CountsWhatThePlannerReports) {
   planner.uav_report.sqp_iterations = 3;
   planner.uav_report.qp_iterations = 20;
   planner.uav_report.state = UavState::kFallback;
-  planner.uav_report.reason = Reason::kConstraintsViolated;
+  planner.uav_report.reason = Reason::kPlanRefused;
   const RunResult result = ClosedLoopRun(mission, planner, 5).fly();
   EXPECT_EQ(result.scenario, "two");
   EXPECT_EQ(result.seed, 5u);
@@ -173,7 +175,7 @@ TEST(ClosedLoopRun, CountsWhatThePlannerReports) {
   EXPECT_NEAR(result.sqp_iterations.mean, 3.0, 1e-9);
   EXPECT_NEAR(result.qp_iterations.max, 20.0, 1e-9);
   ASSERT_EQ(result.fallbacks.size(), 1u);
-  EXPECT_EQ(result.fallbacks.at(reasonText(Reason::kConstraintsViolated)), 20u);
+  EXPECT_EQ(result.fallbacks.at(reasonText(Reason::kPlanRefused)), 20u);
 }
 
 TEST(ClosedLoopRun, NoiseReachesThePlannerAndFollowsTheSeed) {

@@ -38,16 +38,19 @@ CollisionCount amongMovingObstacles(std::uint64_t last_seed, const ParameterMap&
   return total;
 }
 
-TEST(NegativeControls, WithoutSegmentConstraintsUavsMeetBetweenTheSamples) {
+// Either keeps UAVs apart between the samples, the solver's rows and the check.
+TEST(NegativeControls, WithoutSegmentConstraintsAndCheckUavsMeetBetweenTheSamples) {
   EXPECT_EQ(ofSwaps(3, {}).with_uav, 0);
-  EXPECT_GT(ofSwaps(3, {{"segment_constraints", false}}).with_uav, 0);
+  EXPECT_EQ(ofSwaps(3, {{"segment_constraints", false}}).with_uav, 0);
+  EXPECT_GT(ofSwaps(3, {{"segment_constraints", false}, {"plan_check", false}}).with_uav, 0);
 }
 
-TEST(NegativeControls, WithoutSegmentConstraintsUavsCutThroughObstaclesBetweenTheSamples) {
+TEST(NegativeControls, WithoutSegmentConstraintsAndCheckUavsCutThroughObstaclesBetweenTheSamples) {
   const CollisionCount with = amongMovingObstacles(9, {});
   EXPECT_EQ(with.with_obstacle, 0);
   EXPECT_EQ(with.with_uav, 0);
-  EXPECT_GT(amongMovingObstacles(9, {{"segment_constraints", false}}).with_obstacle, 0);
+  EXPECT_EQ(amongMovingObstacles(9, {{"segment_constraints", false}}).with_obstacle, 0);
+  EXPECT_GT(amongMovingObstacles(9, {{"segment_constraints", false}, {"plan_check", false}}).with_obstacle, 0);
 }
 
 TEST(NegativeControls, WithoutLatencyCompensationLateMeasurementsMeanCollisions) {

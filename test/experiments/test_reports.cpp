@@ -77,6 +77,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "path_length_m",
                                       "tracking_error_m",
                                       "arrived_uavs",
+                                      "refusals",
                                       "rejected_plans",
                                       "workspace_violations",
                                       "fallbacks",

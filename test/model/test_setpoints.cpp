@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "swarm_planner/model/setpoints.hpp"
+#include "swarm_planner/model/trajectory.hpp"
 
 namespace swarm_planner {
 namespace {

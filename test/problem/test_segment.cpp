@@ -145,31 +145,6 @@ TEST(Predict, GoesOnAtConstantVelocityPastThePlansEnd) {
   }
 }
 
-// A vehicle that gets no new setpoints stops at the last one. Thought to fly on, it would be flown into.
-TEST(PredictToRest, StopsWhereThePlanEnds) {
-  Random random(7);
-  for (int trial = 0; trial < 100; ++trial) {
-    const Trajectory plan = wanderingPlan(random, randomState(random), 5.0, 10.0, kDt);
-    const double ahead = random.uniform(0.0, 1.5) * plan.duration();
-    PredictedMotion motion;
-    predictToRest(plan, 10.0 + ahead, kDt, motion);
-    const KinematicState& end = plan.knots.back();
-    for (int k = 0; k < kHorizon; ++k) {
-      for (double s = 0.0; s <= 1.0; s += 0.1) {
-        const Vector3 p = bernstein(motion.point(k, 0), motion.point(k, 1), motion.point(k, 2), motion.point(k, 3), s);
-        const double t = ahead + (k + s) * kDt;
-        const Vector3 expected = t < plan.duration() ? plan.after(t).p : end.p;
-        const bool stops_within = std::abs(t - plan.duration()) < kDt;
-        // The fit off the grid, and the stage that brakes.
-        EXPECT_LT((p - expected).norm(), (stops_within ? 4.0 / 27.0 * end.v.norm() * kDt : 0.0) + 5e-3);
-      }
-    }
-    if (ahead + (kHorizon - 1) * kDt > plan.duration()) {
-      EXPECT_EQ(motion.point(kHorizon - 1, 3), end.p);
-    }
-  }
-}
-
 TEST(Predict, BoxHoldsTheWholeMotion) {
   Random random(6);
   for (int trial = 0; trial < 100; ++trial) {

@@ -140,7 +140,7 @@ TEST_F(ViolationTest, CountsObstaclesWhereTheyWillBe) {
 
 TEST_F(ViolationTest, CountsOtherUavs) {
   flight_.addUav(resting(Vector3(0, 0, 10)));
-  const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.tracking_margin;
+  const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.pair_margin;
   expectViolation(resting(Vector3(kept, 0, 10)), 0, 0.0);
   expectViolation(resting(Vector3(0, kept - 0.7, 10)), 4 * kHorizon, 0.7);
 }
@@ -158,7 +158,7 @@ TEST_F(ViolationTest, CountsBodiesAtTheKnotsAloneWithoutSegmentConstraints) {
   EXPECT_GT(planViolation(flight_.problem, passing(-1.5 * stage, 0.0)).largest, 1.0);
   flight_.problem.bounds.between_samples = false;
   expectViolation(passing(-1.5 * stage, 0.0), 0, 0.0);
-  const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.tracking_margin;
+  const double kept = flight_.parameters.limits.pair_distance + flight_.parameters.limits.pair_margin;
   expectViolation(passing(-2.0 * stage, kept - 0.4), 1, 0.4);
 }
 
@@ -235,8 +235,8 @@ double sampledViolation(const FlightProblem& flight, const std::vector<Superelli
       worst = std::max(worst, kept - obstacle.movedBy(t).signedDistance(x.p));
     }
     for (const Trajectory& uav : uavs) {
-      const double gauge = pairGauge(x.p - uav.after(t).p, limits.pair_distance + limits.tracking_margin,
-                                     limits.pair_distance_vertical + limits.tracking_margin);
+      const double gauge = pairGauge(x.p - uav.after(t).p, limits.pair_distance + limits.pair_margin,
+                                     limits.pair_distance_vertical + limits.pair_margin);
       worst = std::max(worst, 1.0 - gauge);
     }
   }

@@ -2,10 +2,12 @@
 // Breaks for the user: a vehicle that flies something else than what was planned and checked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/time_conversion.hpp"
 #include "swarm_planner/ros/trajectory_conversion.hpp"
 
 namespace swarm_planner {
@@ -81,29 +83,57 @@ TEST(TrajectoryConversion, RefusesAPointWithoutPose) {
   EXPECT_THROW(toSetpoints(message), std::invalid_argument);
 }
 
-TEST(TrajectoryConversion, PlanSurvivesARoundTripExactly) {
-  const Trajectory sent = somePlan();
-  UavPlan message;
-  toMessage(sent, "uav1", message);
-  EXPECT_EQ(message.name, "uav1");
-  const Trajectory received = toTrajectory(message);
-  EXPECT_NEAR(received.epoch, sent.epoch, 1e-6);
-  EXPECT_EQ(received.dt, sent.dt);
-  for (std::size_t k = 0; k < sent.knots.size(); ++k) {
-    EXPECT_EQ(received.knots[k].p, sent.knots[k].p) << k;
-    EXPECT_EQ(received.knots[k].v, sent.knots[k].v) << k;
-    EXPECT_EQ(received.knots[k].a, sent.knots[k].a) << k;
+/// The state that a reader of the message finds at `time` [s] after its epoch, by what UavPlan.msg says.
+KinematicState stateIn(const UavPlan& message, double time) {
+  const auto vector = [](const auto& numbers, std::size_t first) {
+    return Vector3(numbers[first], numbers[first + 1], numbers[first + 2]);
+  };
+  KinematicState x{vector(message.position, 0), vector(message.velocity, 0), vector(message.acceleration, 0)};
+  for (std::size_t k = 0; 3 * k < message.jerks.size(); ++k) {
+    const double into = std::min(time - static_cast<double>(k) * message.dt, message.dt);
+    if (into <= 0.0) break;
+    x = propagate(x, vector(message.jerks, 3 * k), into);
+  }
+  return x;
+}
+
+TEST(TrajectoryConversion, ThePlanMessageIsTheWholeMotionWithItsStop) {
+  const Trajectory plan = somePlan();
+  StopManoeuvre stop;
+  rollOutStop(plan.knots.back(), 12, plan.dt, stop);
+  CommittedMotion motion;
+  motion.assign(plan, stop);
+  for (int dropped = 0; dropped < 2; ++dropped) {
+    UavPlan message;
+    message.jerks.resize(500);
+    toMessage(motion, "uav1", message);
+    EXPECT_EQ(message.name, "uav1");
+    EXPECT_NEAR(toSeconds(message.epoch), motion.epoch(), 1e-6);
+    EXPECT_EQ(message.dt, motion.dt());
+    ASSERT_EQ(message.jerks.size(), static_cast<std::size_t>(3 * (kHorizon + 12 - dropped)));
+    for (double time = 0.0; time <= motion.duration(); time += 0.07) {
+      const KinematicState read = stateIn(message, time);
+      const KinematicState flown = motion.after(time);
+      ASSERT_LT((read.p - flown.p).norm(), 1e-8) << time;
+      ASSERT_LT((read.v - flown.v).norm(), 1e-8) << time;
+      ASSERT_LT((read.a - flown.a).norm(), 1e-8) << time;
+    }
+    const KinematicState end = stateIn(message, motion.duration());
+    EXPECT_LT((end.p - motion.restingPlace()).norm(), 1e-8);
+    EXPECT_LT(end.v.norm() + end.a.norm(), 1e-8) << "it is said to rest after the last segment";
+    motion.dropPieces(1);
   }
 }
 
-TEST(TrajectoryConversion, RefusesAPlanOfAnotherShape) {
+TEST(TrajectoryConversion, ThePlanMessageOfAUavAtRestHasNoSegments) {
+  CommittedMotion motion;
+  motion.assignRest(12.0, Vector3(1, 2, 3));
   UavPlan message;
-  toMessage(somePlan(), "uav1", message);
-  UavPlan short_plan = message;
-  short_plan.jerks.pop_back();
-  EXPECT_THROW(toTrajectory(short_plan), std::invalid_argument);
-  message.dt = 0.0;
-  EXPECT_THROW(toTrajectory(message), std::invalid_argument);
+  message.velocity[1] = 7.0;
+  toMessage(motion, "uav2", message);
+  EXPECT_TRUE(message.jerks.empty());
+  EXPECT_LT((stateIn(message, 5.0).p - Vector3(1, 2, 3)).norm(), 1e-12);
+  EXPECT_EQ(stateIn(message, 5.0).v.norm(), 0.0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <limits>
 
+#include "swarm_planner/model/trajectory.hpp"
 #include "swarm_planner/simulation/setpoint_track.hpp"
 
 namespace swarm_planner {

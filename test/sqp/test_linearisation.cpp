@@ -218,8 +218,8 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
     for (double t = dt; t <= kHorizon * dt; t += dt / 20.0) {
       const Vector3 p = plan.after(t).p;
       EXPECT_GE(obstacle.movedBy(t).signedDistance(p), limits.uav_radius + limits.tracking_margin - 1e-6);
-      EXPECT_GE(pairGauge(p - other.after(t).p, limits.pair_distance + limits.tracking_margin,
-                          limits.pair_distance_vertical + limits.tracking_margin),
+      EXPECT_GE(pairGauge(p - other.after(t).p, limits.pair_distance + limits.pair_margin,
+                          limits.pair_distance_vertical + limits.pair_margin),
                 1.0 - 1e-6);
     }
   }

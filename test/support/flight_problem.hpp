@@ -89,8 +89,8 @@ class FlightProblem {
     motions_.emplace_back();
     predict(plan, problem.epoch, problem.dt, motions_.back());
     const LimitParameters& limits = parameters.limits;
-    problem.bodies.push_back(MovingBody::fromUav(motions_.back(), limits.pair_distance + limits.tracking_margin,
-                                                 limits.pair_distance_vertical + limits.tracking_margin, apart));
+    problem.bodies.push_back(MovingBody::fromUav(motions_.back(), limits.pair_distance + limits.pair_margin,
+                                                 limits.pair_distance_vertical + limits.pair_margin, apart));
   }
 
   /// The plan without jerk from the start.

@@ -10,9 +10,10 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kSample = 1e-3;  // [s]
-constexpr double kEpoch = 1e6;    // [s]
-constexpr double kDeep = -0.3;    // how much worse it gets after that does not matter [m]
+constexpr double kSample = 1e-3;    // [s]
+constexpr double kEpoch = 1e6;      // [s]
+constexpr double kSameTime = 1e-9;  // [s]
+constexpr double kDeep = -0.3;      // how much worse it gets after that does not matter [m]
 
 Trajectory randomPlan(Random& random, double speed, double epoch) {
   const KinematicState start{random.vector(-3.0, 3.0), random.uniform(0.0, speed) * random.direction(),
@@ -85,10 +86,9 @@ void CheckScene::addUav(const Trajectory& plan) {
   addMotion(other);
 }
 
-void CheckScene::addMotion(const CommittedMotion& other) {
+void CheckScene::addMotion(const CommittedMotion& other, double valid_until) {
   others.push_back(other);
-  surroundings.uavs.clear();
-  for (const CommittedMotion& each : others) surroundings.uavs.push_back(&each);
+  surroundings.uavs.push_back({&others.back(), valid_until});
 }
 
 void CheckScene::addRandomUav(Random& random, double gauge) {
@@ -117,16 +117,22 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
     return obstacle.body->signedDistance(motion.after(time).p - moved) - demanded(time);
   };
   const double at_start = clearance(0.0);
-  const double margin = std::min(std::max(at_start, 0.0), obstacle.margin);
-  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < obstacle.margin};
+  const double before =
+      obstacle.body->signedDistance(scene.committed - age * obstacle.body->velocity()) - demanded(0.0);
+  const double least = std::min(std::max(at_start, std::min(before, 0.0)), 0.0);
+  const double most = scene.limits.margin_time > 0.0 ? obstacle.margin : 0.0;
+  const double margin = std::max(std::min(at_start, most), least);
+  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < most};
   const bool stands = obstacle.body->velocity().isZero(0.0) && obstacle.growth_rate == 0.0;
-  const double end = motion.duration() + (stands ? kSample : scene.limits.look_ahead);
+  const double end =
+      std::min(motion.duration() + (stands ? kSample : scene.limits.look_ahead), obstacle.valid_until - motion.epoch());
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
     // Far away the box about the body will do.
     const Vector3 moved = (time + age) * obstacle.body->velocity();
-    const double reach = result.slack + margin + demanded(time);
+    const double kept = time < scene.limits.margin_time - kSameTime ? margin : least;
+    const double reach = result.slack + kept + demanded(time);
     if (obstacle.body->distanceLowerBound(motion.after(time).p - moved) > reach) continue;
-    const double slack = clearance(time) - margin;
+    const double slack = clearance(time) - kept;
     if (slack < result.slack) {
       result.slack = slack;
       result.time = time;
@@ -135,7 +141,8 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
   return result;
 }
 
-SampledSlack sampledPairSlack(const CheckScene& scene, const CommittedMotion& other) {
+SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry) {
+  const CommittedMotion& other = *entry.motion;
   const double horizontal = scene.limits.pair_horizontal;
   const double vertical = scene.limits.pair_vertical;
   const double lag = scene.motion.epoch() - other.epoch();
@@ -144,14 +151,28 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const CommittedMotion& ot
     return std::sqrt(d.head<2>().squaredNorm() / std::pow(horizontal + margin, 2) +
                      d.z() * d.z() / std::pow(vertical + margin, 2));
   };
-  double margin = scene.limits.pair_margin;
-  const bool used = gauge(apart(0.0), margin) < 1.0;
-  while (margin > 0.0 && gauge(apart(0.0), margin) < 1.0) margin -= 1e-5;
-  margin = std::max(margin, 0.0);
-  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, used};
-  const double end = std::max(scene.motion.duration(), other.duration() - lag) + kSample;
+  // What `d` has beyond the least semi-axes, at most `most`, negative if it has less than them.
+  const auto marginOf = [&](const Vector3& d, double most) {
+    if (gauge(d, most) >= 1.0) return most;
+    double too_much = most;
+    double has = 1e-3 - std::min(horizontal, vertical);
+    while (too_much - has > 1e-9) {
+      const double middle = 0.5 * (has + too_much);
+      (gauge(d, middle) < 1.0 ? too_much : has) = middle;
+    }
+    return has;
+  };
+  const double most = scene.limits.margin_time > 0.0 ? scene.limits.pair_margin : 0.0;
+  const double at_start = marginOf(apart(0.0), most);
+  const double before = marginOf(scene.committed - other.after(lag).p, 0.0);
+  const double least = std::min(std::max(at_start, before), 0.0);
+  const double margin = std::max(at_start, least);
+  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < most};
+  const double end = std::min(std::max(scene.motion.duration(), other.duration() - lag) + kSample,
+                              entry.valid_until - scene.motion.epoch());
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
-    const double slack = (gauge(apart(time), margin) - 1.0) * (std::min(horizontal, vertical) + margin);
+    const double kept = time < scene.limits.margin_time - kSameTime ? margin : least;
+    const double slack = (gauge(apart(time), kept) - 1.0) * (std::min(horizontal, vertical) + kept);
     if (slack < result.slack) {
       result.slack = slack;
       result.time = time;
@@ -168,7 +189,7 @@ SampledSlack sampledSlack(const CheckScene& scene) {
     least.used_margin = used;
   };
   for (const PredictedObstacle& obstacle : scene.surroundings.obstacles) include(sampledObstacleSlack(scene, obstacle));
-  for (const CommittedMotion* other : scene.surroundings.uavs) include(sampledPairSlack(scene, *other));
+  for (const OtherMotion& other : scene.surroundings.uavs) include(sampledPairSlack(scene, other));
   return least;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 
 #include "support/flight_problem.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
@@ -28,14 +29,16 @@ class CheckScene {
   /// A UAV on a random motion of its own epoch and dt, about `gauge` from this one at some time.
   void addRandomUav(Random& random, double gauge);
   void addUav(const Trajectory& trajectory);
-  void addMotion(const CommittedMotion& other);
+  void addMotion(const CommittedMotion& other, double valid_until = std::numeric_limits<double>::infinity());
 
-  CheckVerdict check() { return checkPlan(trajectory, start, limits, surroundings, motion); }
+  CheckVerdict check() { return checkPlan(trajectory, start, committed, limits, surroundings, motion); }
 
   CheckLimits limits;
   CheckSurroundings surroundings;
   Trajectory trajectory;
   KinematicState start;
+  /// Where the motion committed before is at the epoch [m]: clear of everything unless a test places it.
+  Vector3 committed = Vector3::Constant(1e5);
   CommittedMotion motion;  ///< of the plan, whether it was accepted or not
   std::deque<Superellipsoid> bodies;
   std::deque<CommittedMotion> others;
@@ -52,6 +55,6 @@ struct SampledSlack {
 };
 SampledSlack sampledSlack(const CheckScene& scene);
 SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstacle& obstacle);
-SampledSlack sampledPairSlack(const CheckScene& scene, const CommittedMotion& other);
+SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& other);
 
 }  // namespace swarm_planner

@@ -37,6 +37,12 @@ Snapshot snapshotOf(const Mission& mission, double now) {
   return snapshot;
 }
 
+bool identical(const CommittedMotion& a, const CommittedMotion& b) {
+  bool same = a.epoch() == b.epoch() && a.dt() == b.dt() && a.pieces() == b.pieces();
+  for (int k = 0; same && k <= a.pieces(); ++k) same = a.piece(k) == b.piece(k);
+  return same;
+}
+
 PerfectFlight::PerfectFlight(const Mission& mission, double start_time)
     : mission_(mission),
       planner_(mission),
@@ -46,11 +52,11 @@ PerfectFlight::PerfectFlight(const Mission& mission, double start_time)
   snapshot_.uavs.resize(mission.scenario.uavs.size());
 }
 
-const CycleReport& PerfectFlight::cycle(const std::function<void(Snapshot&)>& tamper) {
+const CycleReport& PerfectFlight::cycle(const std::function<void(Snapshot&)>& tamper, double budget) {
   measure();
   if (tamper) tamper(snapshot_);
   const double epoch = now_ + mission_.parameters.time.cycle_period;
-  const CycleReport& report = planner_.plan(snapshot_, epoch);
+  const CycleReport& report = planner_.plan(snapshot_, epoch, budget);
   watch(now_, epoch);
   now_ = epoch;
   for (std::size_t i = 0; i < flown_.size(); ++i) {
@@ -63,10 +69,7 @@ KinematicState PerfectFlight::vehicle(std::size_t uav, double t) const {
   KinematicState rest;
   rest.p = mission_.scenario.uavs[uav].start;
   if (!flown_[uav]) return rest;
-  const Trajectory& plan = *flown_[uav];
-  if (t - plan.epoch <= plan.duration()) return plan.at(t);
-  rest.p = plan.knots.back().p;
-  return rest;
+  return flown_[uav]->at(t);
 }
 
 Superellipsoid PerfectFlight::obstacle(std::size_t index, double t) const {

@@ -23,14 +23,19 @@ Mission crossingPair();
 /// Every UAV at rest at its start.
 Snapshot snapshotOf(const Mission& mission, double now);
 
-/// Flies a mission in closed loop by vehicles that follow their plans perfectly, as a lossless link would have it. A
-/// vehicle that gets no new plan flies the last one to its end and rests there.
+/// Whether two motions are the same, bit by bit.
+bool identical(const CommittedMotion& a, const CommittedMotion& b);
+
+/// Flies a mission in closed loop by vehicles that follow their motions perfectly, as a lossless link would have it. A
+/// vehicle that gets no new one flies the last one to its end and rests there.
 class PerfectFlight {
  public:
   explicit PerfectFlight(const Mission& mission, double start_time = 0.0);
 
-  /// One cycle: measure, plan for the next epoch, fly until then. `tamper` may spoil the snapshot before.
-  const CycleReport& cycle(const std::function<void(Snapshot&)>& tamper = nullptr);
+  /// One cycle: measure, plan for the next epoch within `budget` [s], fly until then. `tamper` may spoil the snapshot
+  /// before.
+  const CycleReport& cycle(const std::function<void(Snapshot&)>& tamper = nullptr,
+                           double budget = std::numeric_limits<double>::infinity());
   void cycles(int count) {
     for (int i = 0; i < count; ++i) cycle();
   }
@@ -57,7 +62,7 @@ class PerfectFlight {
   Snapshot snapshot_;
   double start_time_;
   double now_;
-  std::vector<std::optional<Trajectory>> flown_;
+  std::vector<std::optional<CommittedMotion>> flown_;
   double least_pair_gauge_ = std::numeric_limits<double>::infinity();
   double least_obstacle_distance_ = std::numeric_limits<double>::infinity();
 };

@@ -36,12 +36,12 @@ TEST_P(SpoiltOdometry, StopsThePlansOfThatUavAloneUntilItIsBack) {
     EXPECT_FALSE(report.uavs[1].planned);
     EXPECT_EQ(report.uavs[0].state, UavState::kTracking);
     EXPECT_TRUE(report.uavs[0].planned);
-    EXPECT_TRUE(flight.planner().committed(0).knots.back().p.allFinite());
+    EXPECT_TRUE(flight.planner().committed(0).isFinite());
   }
   const CycleReport& report = flight.cycle();
   EXPECT_EQ(report.uavs[1].state, UavState::kTracking);
   EXPECT_TRUE(report.uavs[1].planned);
-  EXPECT_LT((flight.planner().committed(1).knots.front().p - flight.vehicle(1).p).norm(), 1e-6) << "it jumps";
+  EXPECT_LT((flight.planner().committed(1).start() - flight.vehicle(1).p).norm(), 1e-6) << "it jumps";
 }
 
 // It flies its last plan on: whoever crosses its way has to know.
@@ -84,17 +84,17 @@ TEST(Odometry, FromBeforeTheNewestPlanIsHeldAgainstTheOneBefore) {
   PerfectFlight flight(twoAbreast());
   flight.planner().setReference(0, {Vector3(0, 0, 10), Vector3(6, 0, 10), Vector3(6, 30, 10)}, 0.0, 3.0);
   flight.cycles(2);
-  Trajectory before = flight.planner().committed(0);
+  CommittedMotion before = flight.planner().committed(0);
   flight.cycle();
   for (int i = 0; i < 20; ++i) {
-    const Trajectory newest = flight.planner().committed(0);
+    const CommittedMotion newest = flight.planner().committed(0);
     const double epoch = flight
                              .cycle([&](Snapshot& snapshot) {
                                const double stamp = snapshot.now - kAge;
                                snapshot.uavs[0] = {true, stamp, before.at(stamp).p, before.at(stamp).v};
                              })
                              .epoch;
-    const KinematicState& start = flight.planner().committed(0).knots.front();
+    const KinematicState start = flight.planner().committed(0).after(0.0);
     EXPECT_LT((start.p - newest.at(epoch).p).norm(), 1e-9);
     EXPECT_LT((start.v - newest.at(epoch).v).norm(), 1e-9);
     before = newest;
@@ -113,7 +113,7 @@ TEST(Odometry, OfAbsurdSizeDoesNotTouchTheOthers) {
       });
       EXPECT_EQ(report.uavs[0].state, UavState::kTracking) << absurd;
       EXPECT_EQ(report.uavs[1].reason, Reason::kOdometryNotFinite) << absurd;
-      EXPECT_TRUE(flight.planner().committed(0).knots.back().p.allFinite()) << absurd;
+      EXPECT_TRUE(flight.planner().committed(0).isFinite()) << absurd;
     }
     EXPECT_NEAR(flight.vehicle(0).p.y(), 0.0, 0.5) << absurd;
   }
@@ -126,8 +126,8 @@ TEST(Odometry, BackAfterALongTimeIsPlannedFromWhereTheUavIs) {
   for (int i = 0; i < 50; ++i) flight.cycle([](Snapshot& snapshot) { snapshot.uavs[1].received = false; });
   const Vector3 rest = flight.vehicle(1).p;
   flight.cycle();
-  EXPECT_LT((flight.planner().committed(1).knots.front().p - rest).norm(), 1e-6);
-  EXPECT_LT(flight.planner().committed(1).knots.front().v.norm(), 1e-6);
+  EXPECT_LT((flight.planner().committed(1).start() - rest).norm(), 1e-6);
+  EXPECT_LT(flight.planner().committed(1).after(0.0).v.norm(), 1e-6);
   flight.cycles(60);
   EXPECT_LT(flight.planner().report().uavs[1].lag, 5.0) << "it does not catch up";
 }

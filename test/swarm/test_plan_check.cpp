@@ -50,12 +50,19 @@ struct Tally {
   }
 };
 
+/// Margins over the plan alone in half of the scenes; in a third a motion before that was about where the plan starts.
+void varyTheRule(Random& random, CheckScene& scene) {
+  if (random.integer(0, 1) == 0) scene.limits.margin_time = scene.trajectory.duration();
+  if (random.integer(0, 2) == 0) scene.committed = scene.start.p + random.vector(-0.1, 0.1);
+}
+
 TEST(PlanCheck, AcceptsNothingThatSamplesFindTooCloseToAnObstacle) {
   Random random(1);
   Tally tally;
   for (int n = 0; n < 900; ++n) {
     CheckScene scene;
     scene.planRandomly(random, 4.0);
+    varyTheRule(random, scene);
     for (int i = random.integer(1, 2); i > 0; --i) scene.addRandomObstacle(random, random.uniform(0.4, 1.0));
     tally.add(scene, "obstacles", n);
   }
@@ -73,6 +80,7 @@ TEST(PlanCheck, AcceptsNothingThatSamplesFindTooCloseToAUav) {
     CheckScene scene;
     scene.limits.pair_vertical = n % 2 == 0 ? 2.0 : 3.0;
     scene.planRandomly(random, 4.0);
+    varyTheRule(random, scene);
     for (int i = random.integer(1, 3); i > 0; --i) scene.addRandomUav(random, random.uniform(1.05, 1.6));
     tally.add(scene, "uavs", n);
   }
@@ -451,9 +459,11 @@ TEST(PlanCheck, SeesAUavThatComesToTheRestingPlace) {
   EXPECT_GT(verdict.time, scene.motion.duration());
 }
 
-/// Verdict on a straight flight beside a sphere, that starts `clearance` from its surface.
-CheckVerdict besideASphere(double clearance, const Vector3& velocity, double least = 0.3) {
+/// Verdict on a straight flight beside a sphere, that starts `clearance` from its surface. `committed`: clearance of
+/// the motion committed before.
+CheckVerdict besideASphere(double clearance, const Vector3& velocity, double least = 0.3, double committed = 1e3) {
   CheckScene scene;
+  scene.committed = Vector3(0.0, 1.0 + committed, 0.0);
   scene.plan(straightPlan(Vector3(0.0, 1.0 + clearance, 0.0), velocity, 0.0, 0.3));
   scene.addObstacle(Superellipsoid(1, Vector3::Zero(), Vector3::Ones(), Vector3::Constant(2.0), 0.0, Vector3::Zero()));
   scene.surroundings.obstacles[0].least_distance = least;
@@ -473,9 +483,24 @@ TEST(UsedMargin, NeedNotBeRegainedButMustNotShrink) {
   EXPECT_FALSE(besideASphere(-0.5, Vector3(0.0, 3.0, 0.0), 0.0).accepted());  // inside
 }
 
+// An obstacle that appears beside a UAV must not ground it, and no plan may take it closer than it would come anyway.
+TEST(UsedMargin, LetsAUavLeaveWhereItsMotionIsTooCloseAlready) {
+  const Vector3 zero = Vector3::Zero();
+  const Vector3 away(0.0, 2.0, 0.0);
+  EXPECT_TRUE(besideASphere(0.2, away, 0.3, 0.2).accepted());
+  EXPECT_TRUE(besideASphere(0.2, Vector3(1.0, 0.0, 0.0), 0.3, 0.2).accepted());
+  EXPECT_TRUE(besideASphere(0.2, zero, 0.3, 0.2).accepted()) << "to stay is no worse";
+  EXPECT_TRUE(besideASphere(0.2, away, 0.3, 0.1).accepted());
+  EXPECT_FALSE(besideASphere(0.2, away, 0.3, 0.201).accepted()) << "its motion was farther off than this start";
+  EXPECT_FALSE(besideASphere(0.2, Vector3(0.0, -0.005, 0.0), 0.3, 0.2).accepted()) << "closer still";
+  EXPECT_FALSE(besideASphere(0.2, Vector3(0.0, -0.005, 0.0), 0.3, 0.1).accepted());
+  EXPECT_FALSE(besideASphere(0.2, away, 0.3, 0.35).accepted());
+}
+
 TEST(UsedMargin, OfAPairToo) {
-  const auto verdict = [](double apart, const Vector3& velocity) {
+  const auto verdict = [](double apart, const Vector3& velocity, double committed = 1e3) {
     CheckScene scene;
+    scene.committed = Vector3(0.0, committed, 0.0);
     scene.limits.pair_vertical = 3.0;
     scene.plan(straightPlan(Vector3(0.0, apart, 0.0), velocity, 0.0, 0.3));
     CommittedMotion other;
@@ -490,6 +515,109 @@ TEST(UsedMargin, OfAPairToo) {
   EXPECT_FALSE(verdict(2.1, Vector3(0.0, -0.005, 0.0)).accepted());
   EXPECT_TRUE(verdict(2.0, zero).accepted());
   EXPECT_FALSE(verdict(2.0 - 2e-6, zero).accepted());
+  // Two that stood too close before the first plan.
+  EXPECT_TRUE(verdict(1.9, zero, 1.9).accepted());
+  EXPECT_TRUE(verdict(1.9, Vector3(0.0, 2.0, 0.0), 1.9).accepted());
+  EXPECT_TRUE(verdict(1.9, Vector3(0.0, 2.0, 0.0), 1.8).accepted());
+  EXPECT_FALSE(verdict(1.9, Vector3(0.0, 2.0, 0.0), 1.901).accepted());
+  EXPECT_FALSE(verdict(1.9, Vector3(0.0, -0.005, 0.0), 1.9).accepted());
+  EXPECT_FALSE(verdict(1.9, Vector3(0.0, -0.005, 0.0), 1.8).accepted());
+}
+
+// Margins are there for the next plans' starts. To demand them of the stop and the rest too would refuse plans that
+// only have to be safe.
+TEST(MarginTime, EndsTheMarginButNotTheLeast) {
+  const auto passing = [](double clearance, double margin_time) {
+    CheckScene scene;
+    scene.limits.margin_time = margin_time;
+    scene.plan(straightPlan(Vector3::Zero(), Vector3(2.0, 0.0, 0.0), 50.0, 0.3));
+    scene.addObstacle(Superellipsoid(1, Vector3(6.0, 1.0 + clearance, 0.0), Vector3::Ones(), Vector3::Constant(2.0),
+                                     0.0, Vector3::Zero()));
+    return scene.check().accepted();
+  };
+  const double forever = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(passing(0.4, forever));
+  EXPECT_FALSE(passing(0.4, 6.0)) << "passed after 3 s";
+  EXPECT_FALSE(passing(0.4, 3.0));
+  EXPECT_TRUE(passing(0.4, 1.5));
+  EXPECT_TRUE(passing(0.4, 0.0));
+  for (const double margin_time : {0.0, 1.5, 6.0, forever}) {
+    EXPECT_TRUE(passing(0.501, margin_time));
+    EXPECT_FALSE(passing(0.299, margin_time));
+  }
+}
+
+TEST(MarginTime, EndsThePairMarginButNotTheLeast) {
+  const auto passing = [](double abreast, double margin_time) {
+    CheckScene scene;
+    scene.limits.margin_time = margin_time;
+    scene.plan(straightPlan(Vector3::Zero(), Vector3(2.0, 0.0, 0.0), 50.0, 0.3));
+    CommittedMotion other;
+    other.assignRest(50.0, Vector3(6.0, abreast, 0.0));
+    scene.addMotion(other);
+    return scene.check().accepted();
+  };
+  const double forever = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(passing(2.1, forever));
+  EXPECT_FALSE(passing(2.1, 6.0)) << "passed after 3 s";
+  EXPECT_TRUE(passing(2.1, 1.5));
+  EXPECT_TRUE(passing(2.1, 0.0));
+  for (const double margin_time : {0.0, 1.5, 6.0, forever}) {
+    EXPECT_TRUE(passing(2.201, margin_time));
+    EXPECT_FALSE(passing(1.999, margin_time));
+  }
+}
+
+TEST(MarginTime, IsOverWhereAPlansMotionRests) {
+  const auto resting = [](double clearance, double pair_clearance, double margin_time) {
+    CheckScene scene;
+    scene.limits.margin_time = margin_time;
+    scene.plan(straightPlan(Vector3::Zero(), Vector3(4.0, 0.0, 0.0), 50.0, 0.3));
+    const Vector3 place = scene.motion.restingPlace();
+    scene.addObstacle(Superellipsoid(1, place + Vector3(0.0, 1.0 + clearance, 0.0), Vector3::Ones(),
+                                     Vector3::Constant(2.0), 0.0, Vector3::Zero()));
+    CommittedMotion other;
+    other.assignRest(50.0, place - Vector3(0.0, pair_clearance, 0.0));
+    scene.addMotion(other);
+    return scene.check().accepted();
+  };
+  const double plan_time = kHorizon * 0.3;
+  EXPECT_TRUE(resting(0.301, 2.001, plan_time));
+  EXPECT_FALSE(resting(0.299, 2.001, plan_time));
+  EXPECT_FALSE(resting(0.301, 1.999, plan_time));
+  EXPECT_FALSE(resting(0.499, 2.3, 100.0));
+  EXPECT_FALSE(resting(0.6, 2.199, 100.0));
+  EXPECT_TRUE(resting(0.501, 2.201, 100.0));
+}
+
+// A motion that may be flown because newer setpoints were lost is so for a while only.
+TEST(OtherMotion, IsKeptClearOfAsLongAsItMayBeFlown) {
+  const auto verdict = [](double valid_for) {
+    CheckScene scene;
+    scene.plan(straightPlan(Vector3::Zero(), Vector3(2.0, 0.0, 0.0), 50.0, 0.3));
+    CommittedMotion other;
+    other.assignRest(49.0, Vector3(6.0, 0.5, 0.0));  // the two come together after 2 s
+    scene.addMotion(other, 50.0 + valid_for);
+    return scene.check();
+  };
+  EXPECT_TRUE(verdict(-0.5).accepted());
+  EXPECT_TRUE(verdict(1.4).accepted());
+  EXPECT_EQ(verdict(2.2).reason, CheckReason::kUav);
+  EXPECT_EQ(verdict(100.0).reason, CheckReason::kUav);
+}
+
+TEST(OtherMotion, IsOfNoConcernToTheRestAfterThat) {
+  CheckScene scene;
+  scene.plan(makePlan({Vector3::Zero(), Vector3::Zero(), Vector3::Zero()}, noJerks(), 0.0, 0.15));
+  StopManoeuvre stop;
+  const Trajectory coming = straightPlan(Vector3(12.0, 1.0, 0.0), Vector3(-2.0, 0.0, 0.0), 0.0, 0.3);
+  planStop(coming.knots.back(), 0.3, scene.limits.bounds, stop);
+  CommittedMotion other;
+  other.assign(coming, stop);
+  scene.addMotion(other, 2.0);
+  EXPECT_TRUE(scene.check().accepted()) << "the motion rests after that time";
+  scene.surroundings.uavs[0].valid_until = 1e3;
+  EXPECT_EQ(scene.check().reason, CheckReason::kUav);
 }
 
 TEST(UsedMargin, OfTheWorkspaceAndTheSpeedToo) {
@@ -542,7 +670,7 @@ TEST(Induction, AnAcceptedMotionStaysAccepted) {
         limits.pair_vertical -= 1e-5;
         limits.pair_margin = 0.0;
         limits.look_ahead -= rest.epoch() - scene.motion.epoch() - (scene.motion.duration() - rest.duration());
-        return checkClearance(rest, limits, surroundings);
+        return checkClearance(rest, scene.committed, limits, surroundings);
       };
       const CheckVerdict verdict = recheck(1.0);
       ASSERT_TRUE(verdict.accepted()) << n << " " << checkReasonText(verdict.reason) << " at " << verdict.time;
@@ -581,38 +709,6 @@ TEST(DistanceBound, IsNeverAboveTheDistanceAndExactBesideASphere) {
   }
   const Superellipsoid sphere(1, Vector3::Zero(), Vector3::Ones(), Vector3::Constant(2.0), 0.4, Vector3::Zero());
   EXPECT_NEAR(distanceBound(sphere, Vector3(0.0, 0.0, 3.0)), 2.0, 1e-9);
-}
-
-TEST(CommittedMotion, IsItsPlanThenItsStopThenRest) {
-  Random random(9);
-  for (int n = 0; n < 200; ++n) {
-    CheckScene scene;
-    scene.planRandomly(random, 4.0);
-    const CommittedMotion& motion = scene.motion;
-    for (int i = 0; i < 50; ++i) {
-      const double t = random.uniform(-0.1, 1.3 * motion.duration());
-      const KinematicState x = motion.after(t);
-      if (t <= scene.trajectory.duration()) {
-        const KinematicState planned = scene.trajectory.after(t);
-        ASSERT_LT((x.p - planned.p).norm(), 1e-10);
-        ASSERT_LT((x.v - planned.v).norm(), 1e-9);
-        ASSERT_LT((x.a - planned.a).norm(), 1e-7);
-      }
-      if (t >= motion.duration()) {
-        ASSERT_EQ(x.p, motion.restingPlace());
-        ASSERT_EQ(x.v.norm() + x.a.norm(), 0.0);
-      }
-      if (t < 0.0) continue;
-      Box box = motion.boxOver(t, t + 0.5);
-      ASSERT_TRUE(box.near({x.p, x.p}, 1e-7));
-      ASSERT_TRUE(motion.box().near({x.p, x.p}, 1e-12));
-    }
-    CommittedMotion rest = motion;
-    const int dropped = random.integer(0, motion.pieces());
-    rest.dropPieces(dropped);
-    const double t = random.uniform(0.0, motion.duration());
-    ASSERT_LT((rest.after(t).p - motion.after(t + dropped * motion.dt()).p).norm(), 1e-9);
-  }
 }
 
 }  // namespace

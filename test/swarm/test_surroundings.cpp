@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
+#include <limits>
 #include <vector>
 
 #include "support/flight_problem.hpp"
@@ -32,14 +34,32 @@ class SurroundingsTest : public ::testing::Test {
     surroundings.collect(uav, flight_.problem);
     return flight_.problem.bodies;
   }
-  Trajectory resting(const Vector3& p) const { return straightPlan(p, Vector3::Zero(), kEpoch, flight_.problem.dt); }
+  /// Surroundings of `uavs` UAVs in the cycle of the epoch, UAV 0 on its way.
+  Surroundings makeSurroundings(std::size_t uavs) const {
+    Surroundings surroundings(flight_.parameters, uavs, 4);
+    surroundings.setEpoch(kEpoch);
+    surroundings.setPlanning(0, flight_.problem.start);
+    return surroundings;
+  }
+  const CommittedMotion& resting(const Vector3& p) {
+    motions_.emplace_back().assignRest(kEpoch, p);
+    return motions_.back();
+  }
+  /// Flies straight on for a horizon, then stops.
+  const CommittedMotion& flying(const Vector3& p, const Vector3& v, double epoch = kEpoch) {
+    const Trajectory plan = straightPlan(p, v, epoch, flight_.problem.dt);
+    StopManoeuvre stop;
+    planStop(plan.knots.back(), plan.dt, flight_.problem.bounds, stop);
+    motions_.emplace_back().assign(plan, stop);
+    return motions_.back();
+  }
 
   FlightProblem flight_;
+  std::deque<CommittedMotion> motions_;
 };
 
 TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
+  Surroundings surroundings = makeSurroundings(1);
   surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 1U);
   const MovingBody& body = flight_.problem.bodies[0];
@@ -51,33 +71,33 @@ TEST_F(SurroundingsTest, PredictTracksToTheEpochAndOverTheHorizon) {
 
 TEST_F(SurroundingsTest, TakeTracksForNewWithoutLatencyCompensation) {
   flight_.parameters.limits.latency_compensation = false;
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch - 0.3, kEpoch);
+  Surroundings surroundings = makeSurroundings(1);
+  surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3(1, -2, 0.5), kEpoch - 0.6)}, kEpoch - 0.3);
   ASSERT_EQ(collected(surroundings).size(), 1U);
   EXPECT_LT((flight_.problem.bodies[0].point(0, 0) - Vector3(10.3, -0.6, 0.15)).norm(), 1e-12);
 }
 
 TEST_F(SurroundingsTest, KeepTheDistancesOfTheParameters) {
-  const LimitParameters& limits = flight_.parameters.limits;
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setResting(1, Vector3(0, 8, 0));
+  LimitParameters& limits = flight_.parameters.limits;
+  limits.tracking_margin = 0.3;
+  limits.pair_margin = 0.7;
+  Surroundings surroundings = makeSurroundings(2);
+  surroundings.setMotions(1, resting(Vector3(0, 8, 0)), nullptr);
   surroundings.setObstacles({track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 2U);
   for (const MovingBody& body : flight_.problem.bodies) {
     const Vector3 r = body.isUav() ? Vector3(0, -5, 0) : Vector3(-5, 0, 0);
     const double level = std::exp(0.5 * flight_.parameters.cost.epsilon_s);  // radius of S = e^eps_s
-    const double kept = body.isUav() ? limits.pair_distance : level + limits.uav_radius;
-    EXPECT_NEAR(body.supportingHalfSpace(r).clearance(r), 5.0 - kept - limits.tracking_margin, 1e-12);
+    const double kept =
+        body.isUav() ? limits.pair_distance + limits.pair_margin : level + limits.uav_radius + limits.tracking_margin;
+    EXPECT_NEAR(body.supportingHalfSpace(r).clearance(r), 5.0 - kept, 1e-12);
     EXPECT_EQ(body.relief(0), 0.0);
   }
 }
 
 TEST_F(SurroundingsTest, KeepTheInflationOfATrackAtTheEndOfEachSegment) {
   const LimitParameters& limits = flight_.parameters.limits;
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
+  Surroundings surroundings = makeSurroundings(1);
   TrackedObstacle doubtful = track(Vector3(10, 0, 0), Vector3::Zero(), kEpoch - 0.4);
   doubtful.position_sigma = 0.2;
   doubtful.velocity_sigma = 0.1;
@@ -98,8 +118,7 @@ TEST_F(SurroundingsTest, KeepTheInflationOfATrackAtTheEndOfEachSegment) {
 
 TEST_F(SurroundingsTest, HoldWhatOnlyItsInflationBringsWithinReach) {
   const double reach = flight_.parameters.limits.max_speed * kHorizon * flight_.problem.dt;
-  Surroundings surroundings(flight_.parameters, 1, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
+  Surroundings surroundings = makeSurroundings(1);
   TrackedObstacle doubtful = track(Vector3(reach + 3.0, 0, 0), Vector3::Zero(), kEpoch);
   surroundings.setObstacles({doubtful}, kEpoch);
   EXPECT_EQ(collected(surroundings).size(), 0U);
@@ -109,9 +128,8 @@ TEST_F(SurroundingsTest, HoldWhatOnlyItsInflationBringsWithinReach) {
 }
 
 TEST_F(SurroundingsTest, WaiveTheMarginWhereTheStartIsTooClose) {
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setResting(1, Vector3(0, 2.1, 0));
+  Surroundings surroundings = makeSurroundings(2);
+  surroundings.setMotions(1, resting(Vector3(0, 2.1, 0)), nullptr);
   surroundings.setObstacles({track(Vector3(1.4, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   ASSERT_EQ(collected(surroundings).size(), 2U);
   for (const MovingBody& body : flight_.problem.bodies) {
@@ -124,9 +142,8 @@ TEST_F(SurroundingsTest, WaiveTheMarginWhereTheStartIsTooClose) {
 TEST_F(SurroundingsTest, HoldOnlyWhatCanBeReached) {
   const double reach = flight_.parameters.limits.max_speed * kHorizon * flight_.problem.dt;
   const auto bodiesWith = [&](double distance) {
-    Surroundings surroundings(flight_.parameters, 2, 4);
-    surroundings.setPlanning(0, flight_.problem.start);
-    surroundings.setPlan(1, resting(Vector3(0, distance + 2.0, 0)), kEpoch);
+    Surroundings surroundings = makeSurroundings(2);
+    surroundings.setMotions(1, resting(Vector3(0, distance + 2.0, 0)), nullptr);
     surroundings.setObstacles({track(Vector3(distance + 1.0, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
     return collected(surroundings).size();
   };
@@ -135,26 +152,24 @@ TEST_F(SurroundingsTest, HoldOnlyWhatCanBeReached) {
 }
 
 TEST_F(SurroundingsTest, HoldWhatComesWithinReach) {
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
+  Surroundings surroundings = makeSurroundings(2);
   // Both are far away now and here within the horizon.
-  surroundings.setPlan(1, straightPlan(Vector3(0, 50, 0), Vector3(0, -8, 0), kEpoch, flight_.problem.dt), kEpoch);
+  surroundings.setMotions(1, flying(Vector3(0, 50, 0), Vector3(0, -8, 0)), nullptr);
   surroundings.setObstacles({track(Vector3(50, 0, 0), Vector3(-8, 0, 0), kEpoch)}, kEpoch);
   EXPECT_EQ(collected(surroundings).size(), 2U);
 }
 
 TEST_F(SurroundingsTest, ReachFartherFromAFastStart) {
   flight_.problem.start.v = Vector3(0, 12, 0);  // blown away: faster than max_speed
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setResting(1, Vector3(0, 60, 0));
+  Surroundings surroundings = makeSurroundings(2);
+  surroundings.setMotions(1, resting(Vector3(0, 60, 0)), nullptr);
   EXPECT_EQ(collected(surroundings).size(), 1U);
 }
 
 TEST_F(SurroundingsTest, HoldEveryOtherUavButNotOneself) {
-  Surroundings surroundings(flight_.parameters, 4, 4);
+  Surroundings surroundings = makeSurroundings(4);
   for (std::size_t uav = 0; uav < 4; ++uav) {
-    surroundings.setResting(uav, Vector3(0, 3.0 * static_cast<double>(uav), 0));
+    surroundings.setMotions(uav, resting(Vector3(0, 3.0 * static_cast<double>(uav), 0)), nullptr);
     surroundings.setPlanning(uav, {Vector3(0, 3.0 * static_cast<double>(uav), 0), Vector3::Zero(), Vector3::Zero()});
   }
   surroundings.setUnknown(2);
@@ -163,35 +178,109 @@ TEST_F(SurroundingsTest, HoldEveryOtherUavButNotOneself) {
   EXPECT_LT((flight_.problem.bodies[1].point(0, 0) - Vector3(0, 9, 0)).norm(), 1e-12);
 }
 
-TEST_F(SurroundingsTest, TakeOverANewPlanWithinTheCycle) {
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setResting(1, Vector3(0, 5, 0));
+TEST_F(SurroundingsTest, TakeOverANewMotionWithinTheCycle) {
+  Surroundings surroundings = makeSurroundings(2);
+  surroundings.setMotions(1, resting(Vector3(0, 5, 0)), nullptr);
   surroundings.setPlanning(1, {Vector3(0, 5, 0), Vector3::Zero(), Vector3::Zero()});
   ASSERT_EQ(collected(surroundings).size(), 1U);
-  surroundings.setPlan(1, straightPlan(Vector3(0, 5, 0), Vector3(1, 0, 0), kEpoch, flight_.problem.dt), kEpoch);
+  surroundings.replaceMotions(1, flying(Vector3(0, 5, 0), Vector3(1, 0, 0)), nullptr);
   surroundings.collect(0, flight_.problem);
   ASSERT_EQ(flight_.problem.bodies.size(), 1U);
   const double end = kHorizon * flight_.problem.dt;
   EXPECT_LT((flight_.problem.bodies[0].point(kHorizon - 1, 3) - Vector3(end, 5, 0)).norm(), 1e-9);
 }
 
-TEST_F(SurroundingsTest, StopALastPlanAtItsEnd) {
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
+// A vehicle that gets no new setpoints flies its last plan, stops and rests: the others must not think it on its way.
+TEST_F(SurroundingsTest, HoldTheStopAndTheRestOfAnOldMotion) {
+  Surroundings surroundings = makeSurroundings(2);
   const double dt = flight_.problem.dt;
-  const Trajectory old = straightPlan(Vector3(0, 5, 0), Vector3(1, 0, 0), kEpoch - 10.0 * dt, dt);
-  surroundings.setLastPlan(1, old, kEpoch);
+  const CommittedMotion& old = flying(Vector3(0, 5, 0), Vector3(1, 0, 0), kEpoch - 10.0 * dt);
+  surroundings.setMotions(1, old, nullptr);
   ASSERT_EQ(collected(surroundings).size(), 1U);
   const MovingBody& body = flight_.problem.bodies[0];
-  EXPECT_LT((body.point(5, 0) - old.at(kEpoch + 5.0 * dt).p).norm(), 1e-9);
-  EXPECT_LT((body.point(kHorizon - 1, 3) - old.knots.back().p).norm(), 1e-9);
+  EXPECT_LT((body.point(5, 0) - Vector3(15.0 * dt, 5, 0)).norm(), 1e-9);
+  ASSERT_LT(old.duration(), 30.0 * dt) << "it is still on its way at the horizon's end";
+  EXPECT_LT((body.point(kHorizon - 1, 3) - old.restingPlace()).norm(), 1e-9);
+}
+
+TEST_F(SurroundingsTest, GiveTheCheckBothMotionsThatAUavMayFly) {
+  flight_.parameters.input.lost_setpoints = 3;
+  Surroundings surroundings = makeSurroundings(3);
+  const CommittedMotion& newest = flying(Vector3(0, 5, 0), Vector3(1, 0, 0));
+  const CommittedMotion& older = flying(Vector3(0, 6, 0), Vector3(0, 0, 1), kEpoch - 1.0);
+  surroundings.setMotions(1, newest, &older);
+  surroundings.setMotions(2, resting(Vector3(0, -5, 0)), nullptr);
+  surroundings.findNeighbours();
+  CheckSurroundings check;
+  surroundings.collect(0, check);
+  ASSERT_EQ(check.uavs.size(), 3U);
+  EXPECT_EQ(check.uavs[0].motion, &newest);
+  EXPECT_EQ(check.uavs[0].valid_until, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(check.uavs[1].motion, &older);
+  EXPECT_NEAR(check.uavs[1].valid_until, kEpoch + 3.0 * flight_.parameters.time.cycle_period, 1e-9);
+  EXPECT_EQ(check.uavs[2].motion, &motions_.back());
+  flight_.parameters.input.lost_setpoints = 0;
+  surroundings.collect(0, check);
+  EXPECT_EQ(check.uavs.size(), 2U) << "setpoints that are never lost leave no doubt";
+  flight_.parameters.limits.avoidance = false;
+  surroundings.collect(0, check);
+  EXPECT_TRUE(check.uavs.empty());
+}
+
+// Only where the older one of its motions takes it do the two meet.
+TEST_F(SurroundingsTest, FindNeighboursByTheOlderMotionToo) {
+  const double far = 200.0;
+  Surroundings surroundings = makeSurroundings(2);
+  const CommittedMotion& older = resting(Vector3(0, 5, 0));
+  surroundings.setMotions(1, resting(Vector3(0, far, 0)), &older);
+  surroundings.findNeighbours();
+  CheckSurroundings check;
+  surroundings.collect(0, check);
+  EXPECT_EQ(check.uavs.size(), 2U);
+}
+
+TEST_F(SurroundingsTest, DemandOfTheCheckWhatATrackDoes) {
+  LimitParameters& limits = flight_.parameters.limits;
+  limits.tracking_margin = 0.5;
+  limits.tracking_error = 0.1;
+  for (const bool compensated : {true, false}) {
+    limits.latency_compensation = compensated;
+    Surroundings surroundings = makeSurroundings(1);
+    TrackedObstacle doubtful = track(Vector3(10, 0, 0), Vector3(1, 0, 0), kEpoch - 0.6);
+    doubtful.position_sigma = 0.2;
+    surroundings.setObstacles({doubtful}, kEpoch - 0.3);
+    surroundings.findNeighbours();
+    CheckSurroundings check;
+    surroundings.collect(0, check);
+    ASSERT_EQ(check.obstacles.size(), 1U);
+    const double inflation = inflationOf(doubtful, flight_.parameters.input).at_stamp;
+    EXPECT_GT(inflation, 0.1);
+    EXPECT_NEAR(check.obstacles[0].least_distance, limits.uav_radius + 0.1 + inflation, 1e-12);
+    EXPECT_NEAR(check.obstacles[0].margin, 0.4, 1e-12);
+    EXPECT_NEAR(check.obstacles[0].stamp, compensated ? kEpoch - 0.6 : kEpoch - 0.3, 1e-9);
+  }
+}
+
+// UAVs that are planned at the same time have been told of an area. A motion that leaves it meets one that nobody
+// holds it against.
+TEST_F(SurroundingsTest, KnowWhetherAMotionStaysWhereOthersExpectIt) {
+  Surroundings surroundings(flight_.parameters, 1, 4);
+  surroundings.setEpoch(kEpoch);
+  const double reach = flight_.parameters.limits.max_speed * kHorizon * flight_.problem.dt;
+  surroundings.setMotions(0, resting(Vector3(0, 0, reach + 4.0)), nullptr);
+  surroundings.setPlanning(0, flight_.problem.start);
+  surroundings.findNeighbours();
+  EXPECT_TRUE(surroundings.isWithinArea(0, resting(Vector3(reach - 1e-6, 0, 0))));
+  EXPECT_FALSE(surroundings.isWithinArea(0, resting(Vector3(reach + 1e-6, 0, 0))));
+  EXPECT_FALSE(surroundings.isWithinArea(0, resting(Vector3(0, -reach - 1e-6, 0))));
+  EXPECT_TRUE(surroundings.isWithinArea(0, resting(Vector3(0, 0, reach + 4.0)))) << "where its motion takes it";
+  EXPECT_FALSE(surroundings.isWithinArea(0, flying(Vector3(reach - 1.0, 0, 0), Vector3(1, 0, 0))));
 }
 
 TEST_F(SurroundingsTest, PartUavsOnTopOfEachOther) {
-  Surroundings surroundings(flight_.parameters, 2, 4);
+  Surroundings surroundings = makeSurroundings(2);
   for (std::size_t uav = 0; uav < 2; ++uav) {
-    surroundings.setResting(uav, Vector3::Zero());
+    surroundings.setMotions(uav, resting(Vector3::Zero()), nullptr);
     surroundings.setPlanning(uav, {});
   }
   ASSERT_EQ(collected(surroundings, 0).size(), 1U);
@@ -202,9 +291,8 @@ TEST_F(SurroundingsTest, PartUavsOnTopOfEachOther) {
 
 TEST_F(SurroundingsTest, AreEmptyWithoutAvoidance) {
   flight_.parameters.limits.avoidance = false;
-  Surroundings surroundings(flight_.parameters, 2, 4);
-  surroundings.setPlanning(0, flight_.problem.start);
-  surroundings.setResting(1, Vector3(0, 1, 0));
+  Surroundings surroundings = makeSurroundings(2);
+  surroundings.setMotions(1, resting(Vector3(0, 1, 0)), nullptr);
   surroundings.setObstacles({track(Vector3(1, 0, 0), Vector3::Zero(), kEpoch)}, kEpoch);
   EXPECT_TRUE(collected(surroundings).empty());
 }

@@ -26,7 +26,7 @@ TEST(Swarm, UavsOnTopOfEachOtherPart) {
   const CycleReport& first = flight.cycle();
   for (const UavReport& uav : first.uavs) {
     EXPECT_EQ(uav.state, UavState::kFallback);
-    EXPECT_EQ(uav.reason, Reason::kConstraintsViolated);
+    EXPECT_EQ(uav.reason, Reason::kNoSafePlan);
     EXPECT_GT(uav.max_slack, 1.0);
   }
   flight.cycles(30);
@@ -57,10 +57,10 @@ TEST(Swarm, MeetingHeadOnPassEachOther) {
   }
 }
 
-/// Least gauge of the two newest plans over the horizon, sampled densely.
+/// Least gauge of the two newest motions, sampled densely.
 double leastPairGaugeOfPlans(const SwarmPlanner& planner) {
-  const Trajectory& first = planner.committed(0);
-  const Trajectory& second = planner.committed(1);
+  const CommittedMotion& first = planner.committed(0);
+  const CommittedMotion& second = planner.committed(1);
   double least = kInfinity;
   for (double t = 0.0; t <= first.duration(); t += 0.02) {
     least = std::min(least, pairGauge(first.after(t).p - second.after(t).p, LimitParameters()));
@@ -79,7 +79,7 @@ TEST(Swarm, EachUavPlansAroundTheNewPlansOfThoseBefore) {
   Snapshot snapshot = snapshotOf(mission, 0.0);
   snapshot.uavs.erase(snapshot.uavs.begin());
   alone.plan(snapshot, 0.3);
-  EXPECT_GT((alone.committed(0).knots.back().p - planner.committed(1).knots.back().p).norm(), 0.1)
+  EXPECT_GT((alone.committed(0).restingPlace() - planner.committed(1).restingPlace()).norm(), 0.1)
       << "the second need not give way at all: this shows nothing";
 }
 

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <atomic>
-#include <cstring>
 
+#include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 #include "swarm_planner/swarm/thread_team.hpp"
@@ -30,7 +30,7 @@ TEST(ThreadTeam, AnEmptyLoopReturns) {
 }
 
 /// Flies by perfect tracking and returns the plans of the last cycle.
-std::vector<Trajectory> plansAfter(const Scenario& scenario, int threads, int cycles) {
+std::vector<CommittedMotion> plansAfter(const Scenario& scenario, int threads, int cycles) {
   const Mission mission = makeMission(scenario, {{"threads", threads}}, "test");
   SwarmPlanner planner(mission);
   const double period = mission.parameters.time.cycle_period;
@@ -50,24 +50,19 @@ std::vector<Trajectory> plansAfter(const Scenario& scenario, int threads, int cy
     }
     planner.plan(snapshot, snapshot.now + period);
   }
-  std::vector<Trajectory> plans;
+  std::vector<CommittedMotion> plans;
   for (std::size_t i = 0; i < planner.uavCount(); ++i) plans.push_back(planner.committed(i));
   return plans;
-}
-
-bool sameBits(const Trajectory& a, const Trajectory& b) {
-  return std::memcmp(a.jerks.data(), b.jerks.data(), sizeof(a.jerks)) == 0 &&
-         std::memcmp(a.knots.data(), b.knots.data(), sizeof(a.knots)) == 0;
 }
 
 // A swarm whose plans depended on the machine's load could not be debugged.
 TEST(SwarmPlannerThreads, GiveTheSamePlansToTheBit) {
   for (const Scenario& scenario : {circleSwap(12, 8.0, 3), paperScaling(32)}) {
-    const std::vector<Trajectory> one = plansAfter(scenario, 1, 25);
+    const std::vector<CommittedMotion> one = plansAfter(scenario, 1, 25);
     for (const int threads : {2, 5}) {
-      const std::vector<Trajectory> several = plansAfter(scenario, threads, 25);
+      const std::vector<CommittedMotion> several = plansAfter(scenario, threads, 25);
       for (std::size_t i = 0; i < one.size(); ++i) {
-        EXPECT_TRUE(sameBits(one[i], several[i])) << scenario.name << ", UAV " << i << ", " << threads << " threads";
+        EXPECT_TRUE(identical(one[i], several[i])) << scenario.name << ", UAV " << i << ", " << threads << " threads";
       }
     }
   }

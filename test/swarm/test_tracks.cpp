@@ -31,18 +31,18 @@ Mission blockedAlongX() {
 
 void loseTracks(Snapshot& snapshot) { snapshot.obstacles.clear(); }
 
-/// Least distance of a plan's curve from where the track says the obstacle is, less `kept` at that age [m].
+/// Least distance of a motion's curve from where the track says the obstacle is, less `kept` at that age [m].
 template <class Kept>
-double leastClearance(const Trajectory& plan, const TrackedObstacle& track, const Kept& kept) {
+double leastClearance(const CommittedMotion& motion, const TrackedObstacle& track, const Kept& kept) {
   double least = std::numeric_limits<double>::infinity();
-  for (double t = 0.0; t <= plan.duration(); t += 0.01) {
-    const double age = plan.epoch + t - track.stamp;
-    least = std::min(least, track.shape.movedBy(age).signedDistance(plan.after(t).p) - kept(age));
+  for (double t = 0.0; t <= motion.duration(); t += 0.01) {
+    const double age = motion.epoch() + t - track.stamp;
+    least = std::min(least, track.shape.movedBy(age).signedDistance(motion.after(t).p) - kept(age));
   }
   return least;
 }
-double leastDistance(const Trajectory& plan, const TrackedObstacle& track) {
-  return leastClearance(plan, track, [](double) { return 0.0; });
+double leastDistance(const CommittedMotion& motion, const TrackedObstacle& track) {
+  return leastClearance(motion, track, [](double) { return 0.0; });
 }
 
 TEST(LostTrack, IsAvoidedAsIfItWereSeen) {
@@ -124,7 +124,7 @@ TEST(BadTrack, IsRefusedAndToldAndTheOlderOneStays) {
 TEST(NewTrack, OnTopOfAPlanIsAvoidedInThePlanOfThatCycle) {
   PerfectFlight flight(alongX());
   flight.cycles(15);
-  const Trajectory before = flight.planner().committed(0);
+  const CommittedMotion before = flight.planner().committed(0);
   TrackedObstacle track;
   track.shape = Superellipsoid(7, before.after(2.1).p + Vector3(0, 0.2, 0), Vector3::Constant(1.0),
                                Vector3::Constant(2.0), 0.0, Vector3::Zero());
@@ -147,8 +147,8 @@ TEST(NewTrack, OnTopOfAUavIsLeftInThePlanOfThatCycleAndTold) {
   const CycleReport& report = flight.cycle([&track](Snapshot& snapshot) { snapshot.obstacles.push_back(track); });
   ASSERT_TRUE(report.uavs[0].planned);
   EXPECT_EQ(report.uavs[0].state, UavState::kFallback);
-  EXPECT_EQ(report.uavs[0].reason, Reason::kConstraintsViolated);
-  const Trajectory& plan = flight.planner().committed(0);
+  EXPECT_EQ(report.uavs[0].reason, Reason::kNoSafePlan);
+  const CommittedMotion& plan = flight.planner().committed(0);
   for (double t = 1.5; t <= plan.duration(); t += 0.05) {
     EXPECT_GE(track.shape.signedDistance(plan.after(t).p), Parameters().limits.uav_radius) << t;
   }
@@ -190,7 +190,7 @@ TEST(DoubtfulTrack, IsKeptOffFartherTheLaterAlongAPlan) {
     });
     if (report.uavs[0].max_slack > 1e-3) continue;
     const TrackInflation inflation = inflationOf(track, input);
-    const Trajectory& plan = flight.planner().committed(0);
+    const CommittedMotion& plan = flight.planner().committed(0);
     const double least = leastClearance(plan, track, [&](double age) { return kept + inflation.at(age); });
     EXPECT_GE(least, 0.0) << cycle;
     least_without_growth = std::min(least_without_growth, leastDistance(plan, track) - kept);

@@ -1,0 +1,105 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// A cycle that runs out of time must leave every UAV with a motion that is safe, and nobody without a plan for ever.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "perfect_flight.hpp"
+
+namespace swarm_planner {
+namespace {
+
+TEST(Overrun, LeavesEveryUavWithItsMotionAndSaysSo) {
+  PerfectFlight flight(crossingPair());
+  flight.cycles(12);
+  const std::vector<CommittedMotion> before{flight.planner().committed(0), flight.planner().committed(1)};
+  for (int cycle = 0; cycle < 40; ++cycle) {
+    const CycleReport& report = flight.cycle(nullptr, 0.0);
+    EXPECT_TRUE(report.out_of_time);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(report.uavs[i].state, UavState::kFallback);
+      EXPECT_EQ(report.uavs[i].reason, Reason::kOverrun);
+      EXPECT_TRUE(report.uavs[i].planned) << "its motion is to be published again";
+      EXPECT_EQ(report.uavs[i].sqp_iterations, 0);
+      for (double ahead = 0.0; ahead < 20.0; ahead += 0.7) {
+        const double t = report.epoch + ahead;
+        ASSERT_LT((flight.planner().committed(i).at(t).p - before[i].at(t).p).norm(), 1e-9);
+      }
+    }
+  }
+  EXPECT_GT(flight.leastPairGauge(), 1.0);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(flight.vehicle(i).v.norm(), 0.0) << "it never stops";
+    EXPECT_LT((flight.vehicle(i).p - before[i].restingPlace()).norm(), 1e-6);
+  }
+  const CycleReport& report = flight.cycle();
+  EXPECT_FALSE(report.out_of_time);
+  for (const UavReport& uav : report.uavs) EXPECT_EQ(uav.state, UavState::kTracking);
+  flight.cycles(60);
+  for (const UavReport& uav : flight.planner().report().uavs)
+    EXPECT_LT(std::abs(uav.lag), 1.0) << "it stays where it stopped";
+}
+
+TEST(Overrun, OfTheFirstCycleLeavesNothingToPublish) {
+  PerfectFlight flight(twoAbreast());
+  const CycleReport& first = flight.cycle(nullptr, 0.0);
+  for (const UavReport& uav : first.uavs) {
+    EXPECT_EQ(uav.reason, Reason::kOverrun);
+    EXPECT_FALSE(uav.planned);
+  }
+  for (const UavReport& uav : flight.cycle().uavs) EXPECT_EQ(uav.state, UavState::kTracking);
+}
+
+TEST(Overrun, IsNotSaidOfAUavWithoutOdometry) {
+  PerfectFlight flight(twoAbreast());
+  flight.cycles(3);
+  const CycleReport& report = flight.cycle([](Snapshot& snapshot) { snapshot.uavs[1].received = false; }, 0.0);
+  EXPECT_EQ(report.uavs[0].reason, Reason::kOverrun);
+  EXPECT_EQ(report.uavs[1].reason, Reason::kWaitingForOdometry);
+}
+
+/// Pairs that hover close beside each other, far from all other pairs.
+Mission hoveringPairs(int pairs) {
+  std::vector<Vector3> places;
+  for (int i = 0; i < 2 * pairs; ++i) places.emplace_back(100.0 * (i / 2), i % 2 == 0 ? 0.0 : 6.0, 10.0);
+  return makeTestMission(places, places, 0.0);
+}
+
+// Budgets that are enough for a few UAVs only: whoever was skipped earliest in the order comes first in the next cycle.
+// By that everyone has its turn, whatever the neighbourhood makes of the order.
+TEST(Overrun, LetsThoseWhoWereSkippedComeFirst) {
+  PerfectFlight flight(hoveringPairs(8));
+  constexpr std::size_t kCount = 16;
+  flight.cycles(2);
+  double budget = flight.planner().report().cycle_time;
+  std::size_t first = 0;
+  std::vector<int> turns(kCount, 0);
+  int partial = 0;
+  for (int cycle = 0; cycle < 5000 && partial < 100; ++cycle) {
+    const CycleReport& report = flight.cycle(nullptr, budget);
+    std::vector<std::size_t> skipped;
+    for (std::size_t turn = 0; turn < kCount; ++turn) {
+      const std::size_t uav = (first + turn) % kCount;
+      if (report.uavs[uav].reason == Reason::kOverrun) skipped.push_back(uav);
+    }
+    ASSERT_EQ(report.out_of_time, !skipped.empty());
+    if (skipped.size() == kCount) {
+      budget *= 1.3;
+      continue;
+    }
+    ASSERT_NE(report.uavs[first].reason, Reason::kOverrun) << "UAV " << first << " was skipped twice";
+    // About three of them, less than a round.
+    budget *= skipped.size() < kCount - 3 ? 0.8 : 1.02;
+    if (skipped.empty()) continue;
+    ++partial;
+    for (std::size_t i = 0; i < kCount; ++i) turns[i] += report.uavs[i].reason == Reason::kOverrun ? 0 : 1;
+    first = skipped.front();
+  }
+  ASSERT_EQ(partial, 100) << "no budget was found that is enough for some";
+  for (std::size_t i = 0; i < kCount; ++i) EXPECT_GE(turns[i], 100 / static_cast<int>(kCount)) << "UAV " << i;
+}
+
+}  // namespace
+}  // namespace swarm_planner
