@@ -65,7 +65,8 @@ class Resolution {
     if (!isSet("pair_margin")) {
       limits.pair_margin = std::max(limits.tracking_margin, std::min(0.1 * limits.pair_distance, 0.2));
     }
-    if (!isSet("tracking_error")) limits.tracking_error = kErrorShare * std::min(limits.tracking_margin, 0.5 * limits.pair_margin);
+    if (!isSet("tracking_error"))
+      limits.tracking_error = kErrorShare * std::min(limits.tracking_margin, 0.5 * limits.pair_margin);
   }
 
   /// Checks of one parameter against another. A parameter that already has a fault is not judged again.

@@ -110,7 +110,8 @@ void addLimits(TableBuilder& table) {
   table.withRule();
   table.number(
       "tracking_error", "m", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.limits.tracking_error; },
-      "how far a vehicle may stray from what it is asked to fly; that part of the margins (twice, of a pair's) no plan may use up");
+      "how far a vehicle may stray from what it is asked to fly; that part of the margins (twice, of a pair's) no plan "
+      "may use up");
   table.withRule();
   table.boolean(
       "avoidance", [](P& p) -> bool& { return p.limits.avoidance; },
@@ -223,8 +224,8 @@ void addInput(TableBuilder& table) {
       "odometry_noise", "m", Range::atLeast(0.0), [](P& p) -> double& { return p.input.odometry_noise; },
       "deviations from the plan up to this may be noise alone: a fifth of them is carried into the next plan's start");
   table.wholeNumber(
-      "lost_setpoints", Range::closed(0.0, 10.0), [](P& p) -> int& { return p.input.lost_setpoints; },
-      "so many trajectories in a row may fail to reach a vehicle: others keep clear of the older one as long");
+      "lost_setpoints", Range::closed(0.0, 1.0), [](P& p) -> int& { return p.input.lost_setpoints; },
+      "so many trajectories in a row may fail to reach a vehicle: with 1 others keep clear of the one before, too");
   table.boolean(
       "autostart", [](P& p) -> bool& { return p.input.autostart; },
       "start as soon as the odometry of every UAV has arrived");

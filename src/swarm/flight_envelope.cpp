@@ -90,7 +90,8 @@ double envelopeRatio(const FlightBounds& bounds, const KinematicState& begin, co
   double where = 0.0;
   const double vertical = leastValue(thrust[0].z(), thrust[1].z(), thrust[2].z(), where);
   const double missing = bounds.min_vertical_thrust + bounds.gravity.z() - vertical;
-  return std::max({jerk.norm() / bounds.max_jerk, std::sqrt(greatestSquaredNorm(velocity)) / bounds.max_speed, acceleration / bounds.max_acceleration,
+  return std::max({jerk.norm() / bounds.max_jerk, std::sqrt(greatestSquaredNorm(velocity)) / bounds.max_speed,
+                   acceleration / bounds.max_acceleration,
                    std::sqrt(greatestSquaredNorm(thrust)) / bounds.max_thrust_acceleration,
                    1.0 + missing / bounds.gravity.z()});
 }

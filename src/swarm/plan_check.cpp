@@ -22,8 +22,7 @@ bool isFinite(const Trajectory& plan) {
 }
 
 bool isFinite(const PredictedObstacle& obstacle) {
-  return std::isfinite(obstacle.stamp) &&
-         std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
+  return std::isfinite(obstacle.stamp) && std::isfinite(obstacle.least_distance) && obstacle.least_distance >= 0.0 &&
          std::isfinite(obstacle.growth_rate) && obstacle.growth_rate >= 0.0 && obstacle.growth_time >= 0.0 &&
          !std::isnan(obstacle.valid_until);
 }

@@ -40,8 +40,7 @@ void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, doub
     const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
                                 inflation.at(inflation.growth_time) - at_epoch};
     obstacles_.push_back({track.shape.movedBy(age), at_epoch, growth});
-    checked_obstacles_.push_back(
-        predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error));
+    checked_obstacles_.push_back(predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error));
     checked_obstacles_.back().stamp = measured;
   }
 }
@@ -128,12 +127,13 @@ void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) con
   surroundings.clear();
   if (!parameters_.limits.avoidance) return;
   surroundings.obstacles.assign(checked_obstacles_.begin(), checked_obstacles_.end());
-  const double lost_until = epoch_ + parameters_.input.lost_setpoints * parameters_.time.cycle_period;
   for (const std::uint32_t other : neighbours_.of(uav)) {
     const Motions& motions = motions_[other];
     if (motions.newest == nullptr || !motions.box.near(areas_[uav], 0.5 * std::max(horizontal_, vertical_))) continue;
     surroundings.uavs.push_back({motions.newest});
-    if (motions.older != nullptr && lost_until > epoch_) surroundings.uavs.push_back({motions.older, lost_until});
+    if (motions.older == nullptr || parameters_.input.lost_setpoints == 0) continue;
+    // The cycle after the newest motion's sends the next one, which is not lost too.
+    surroundings.uavs.push_back({motions.older, motions.newest->epoch() + parameters_.time.cycle_period});
   }
 }
 

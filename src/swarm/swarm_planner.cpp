@@ -2,6 +2,7 @@
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -120,12 +121,13 @@ class SwarmPlanner::Impl {
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
+    std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
         if (judged[i] != Reason::kNone) return;
-        const bool is_first = round == 0 && position == 0;  // whatever the budget: somebody makes progress
-        if (!is_first && stopwatch.elapsed() > budget) {
+        // Whatever the budget, somebody makes progress.
+        if (planned.exchange(true) && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
         } else {
           planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);

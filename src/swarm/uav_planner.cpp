@@ -14,13 +14,13 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kBoundSlack = 0.1;       // of a bound, by which a measured start may exceed it
-constexpr double kReserve = 0.002;        // of the bounds, that the solver stays inside
-constexpr double kMoved = 0.5;            // a UAV at rest that is so far from its place has been moved [m]
-constexpr double kDeviationGain = 0.2;    // of a new measurement in the mean deviation
-constexpr double kSamePlace = 1e-6;       // starts closer than this are the same [m, m/s]
-constexpr double kSameShortfall = 1e-3;   // [m s]
-constexpr double kLostMargins = 2.0;      // tracking margins by which a lost setpoint shows
+constexpr double kBoundSlack = 0.1;      // of a bound, by which a measured start may exceed it
+constexpr double kReserve = 0.002;       // of the bounds, that the solver stays inside
+constexpr double kMoved = 0.5;           // a UAV at rest that is so far from its place has been moved [m]
+constexpr double kDeviationGain = 0.2;   // of a new measurement in the mean deviation
+constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
+constexpr double kSameShortfall = 1e-3;  // [m s]
+constexpr double kLostMargins = 2.0;     // tracking margins by which a lost setpoint shows
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -115,7 +115,8 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   has_proposal_ = false;
 
   CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
-  // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on from.
+  // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on
+  // from.
   const bool compensated = parameters_.limits.latency_compensation;
   if (!verdict.accepted() && record.planned && compensated && areApart(record.start, committed)) {
     record.start = committed;
@@ -124,7 +125,7 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   if (verdict.accepted()) {
     record.motions.commit(motion_);
     record.planned = true;
-    report.reason = Reason::kNone;
+    report.reason = report.stays ? Reason::kPlanRefused : Reason::kNone;
   } else {
     report.reason = fallBack(epoch, record);
   }
@@ -163,7 +164,9 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
       step_.jerks[k] = shifted_.jerks[k] + length * (plan_.jerks[k] - shifted_.jerks[k]);
     }
     rollOut(record.start, step_);
-    if (judge(uav, surroundings, step_).accepted()) return {};
+    if (!judge(uav, surroundings, step_).accepted()) continue;
+    report.stays = length == 0.0;
+    return {};
   }
   return verdict;
 }
@@ -250,8 +253,8 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
   const ReferencePath& path = record.reference.path;
-  const PathPoint foot =
-      record.on_reference ? path.nearest(record.start.p, record.progress) : path.nearest(record.start.p, 0.0, kInfinity);
+  const PathPoint foot = record.on_reference ? path.nearest(record.start.p, record.progress)
+                                             : path.nearest(record.start.p, 0.0, kInfinity);
   record.progress = foot.arc_length;
   record.on_reference = true;
   problem_.epoch = epoch;

@@ -150,7 +150,6 @@ class SwarmScene {
       obstacle.body = &body;
       obstacle.stamp = flight_.now();
       obstacle.least_distance = mission_.parameters.limits.uav_radius;
-      obstacle.margin = mission_.parameters.limits.tracking_margin;
       around.obstacles.push_back(obstacle);
     }
     for (std::size_t j = 0; j < size(); ++j) {

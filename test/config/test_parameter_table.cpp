@@ -20,6 +20,7 @@ struct Place {
 const Place kPlaces[] = {
     {"max_speed", 4.1, [](const Parameters& p) -> ParameterValue { return p.limits.max_speed; }},
     {"max_acceleration", 12.0, [](const Parameters& p) -> ParameterValue { return p.limits.max_acceleration; }},
+    {"max_jerk", 33.0, [](const Parameters& p) -> ParameterValue { return p.limits.max_jerk; }},
     {"max_thrust_ratio", 1.9, [](const Parameters& p) -> ParameterValue { return p.limits.max_thrust_ratio; }},
     {"min_thrust_ratio", 0.3, [](const Parameters& p) -> ParameterValue { return p.limits.min_thrust_ratio; }},
     {"uav_radius", 0.4, [](const Parameters& p) -> ParameterValue { return p.limits.uav_radius; }},
@@ -57,7 +58,7 @@ const Place kPlaces[] = {
     {"track_growth_time", 2.2, [](const Parameters& p) -> ParameterValue { return p.input.track_growth_time; }},
     {"tracking_time", 0.65, [](const Parameters& p) -> ParameterValue { return p.input.tracking_time; }},
     {"odometry_noise", 0.16, [](const Parameters& p) -> ParameterValue { return p.input.odometry_noise; }},
-    {"lost_setpoints", 4, [](const Parameters& p) -> ParameterValue { return p.input.lost_setpoints; }},
+    {"lost_setpoints", 0, [](const Parameters& p) -> ParameterValue { return p.input.lost_setpoints; }},
     {"autostart", false, [](const Parameters& p) -> ParameterValue { return p.input.autostart; }},
     {"mass", 0.47, [](const Parameters& p) -> ParameterValue { return p.vehicle.mass; }},
     {"gravity", 9.8, [](const Parameters& p) -> ParameterValue { return p.vehicle.gravity; }},

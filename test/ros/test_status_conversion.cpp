@@ -91,11 +91,12 @@ TEST_F(StatusConversion, MessageTellsWhoHadNoTime) {
   snapshot_.now += 0.3;
   for (UavMeasurement& uav : snapshot_.uavs) uav.stamp = snapshot_.now;
   planner_.plan(snapshot_, snapshot_.now + 0.3, 0.0);
-  EXPECT_EQ(describeReason(planner_, 0, inputs_, ""), reasonText(Reason::kOverrun));
+  EXPECT_EQ(describeReason(planner_, 1, inputs_, ""), reasonText(Reason::kOverrun));
   const PlannerStatus message = statusMessage();
   EXPECT_TRUE(message.out_of_time);
-  EXPECT_EQ(message.uavs[0].state, UavStatus::FALLBACK);
-  EXPECT_TRUE(message.uavs[0].planned);
+  EXPECT_EQ(message.uavs[0].state, UavStatus::TRACKING) << "whatever the time, one is planned for";
+  EXPECT_EQ(message.uavs[1].state, UavStatus::FALLBACK);
+  EXPECT_TRUE(message.uavs[1].planned);
 }
 
 TEST_F(StatusConversion, MessageCountsTracksThatCannotBeUsed) {

@@ -10,10 +10,9 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kSample = 1e-3;    // [s]
-constexpr double kEpoch = 1e6;      // [s]
-constexpr double kSameTime = 1e-9;  // [s]
-constexpr double kDeep = -0.3;      // how much worse it gets after that does not matter [m]
+constexpr double kSample = 1e-3;  // [s]
+constexpr double kEpoch = 1e6;    // [s]
+constexpr double kDeep = -0.3;    // how much worse it gets after that does not matter [m]
 
 Trajectory randomPlan(Random& random, double speed, double epoch) {
   const KinematicState start{random.vector(-3.0, 3.0), random.uniform(0.0, speed) * random.direction(),
@@ -39,9 +38,8 @@ Vector3 exponents(Random& random) {
 CheckLimits defaultCheckLimits() {
   CheckLimits limits;
   limits.bounds = FlightBounds(Parameters(), nullptr);
-  limits.pair_horizontal = 2.0;
-  limits.pair_vertical = 2.0;
-  limits.pair_margin = 0.2;
+  limits.pair_horizontal = 2.2;
+  limits.pair_vertical = 2.2;
   return limits;
 }
 
@@ -58,8 +56,7 @@ void CheckScene::addObstacle(const Superellipsoid& body) {
   PredictedObstacle obstacle;
   obstacle.body = &bodies.back();
   obstacle.stamp = motion.epoch();
-  obstacle.least_distance = 0.3;
-  obstacle.margin = 0.2;
+  obstacle.least_distance = 0.5;
   surroundings.obstacles.push_back(obstacle);
 }
 
@@ -116,23 +113,19 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
     const Vector3 moved = (time + age) * obstacle.body->velocity();
     return obstacle.body->signedDistance(motion.after(time).p - moved) - demanded(time);
   };
-  const double at_start = clearance(0.0);
   const double before =
       obstacle.body->signedDistance(scene.committed - age * obstacle.body->velocity()) - demanded(0.0);
-  const double least = std::min(std::max(at_start, std::min(before, 0.0)), 0.0);
-  const double most = scene.limits.margin_time > 0.0 ? obstacle.margin : 0.0;
-  const double margin = std::max(std::min(at_start, most), least);
-  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < most};
+  const double waived = clearance(0.0) < 0.0 ? std::min(before, 0.0) : 0.0;
+  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, waived < 0.0};
   const bool stands = obstacle.body->velocity().isZero(0.0) && obstacle.growth_rate == 0.0;
   const double end =
       std::min(motion.duration() + (stands ? kSample : scene.limits.look_ahead), obstacle.valid_until - motion.epoch());
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
     // Far away the box about the body will do.
     const Vector3 moved = (time + age) * obstacle.body->velocity();
-    const double kept = time < scene.limits.margin_time - kSameTime ? margin : least;
-    const double reach = result.slack + kept + demanded(time);
+    const double reach = result.slack + waived + demanded(time);
     if (obstacle.body->distanceLowerBound(motion.after(time).p - moved) > reach) continue;
-    const double slack = clearance(time) - kept;
+    const double slack = clearance(time) - waived;
     if (slack < result.slack) {
       result.slack = slack;
       result.time = time;
@@ -147,14 +140,14 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry)
   const double vertical = scene.limits.pair_vertical;
   const double lag = scene.motion.epoch() - other.epoch();
   const auto apart = [&](double time) { return Vector3(scene.motion.after(time).p - other.after(time + lag).p); };
-  const auto gauge = [&](const Vector3& d, double margin) {
-    return std::sqrt(d.head<2>().squaredNorm() / std::pow(horizontal + margin, 2) +
-                     d.z() * d.z() / std::pow(vertical + margin, 2));
+  const auto gauge = [&](const Vector3& d, double extra) {
+    return std::sqrt(d.head<2>().squaredNorm() / std::pow(horizontal + extra, 2) +
+                     d.z() * d.z() / std::pow(vertical + extra, 2));
   };
-  // What `d` has beyond the least semi-axes, at most `most`, negative if it has less than them.
-  const auto marginOf = [&](const Vector3& d, double most) {
-    if (gauge(d, most) >= 1.0) return most;
-    double too_much = most;
+  // What `d` lacks of the least semi-axes, negative; 0 if nothing.
+  const auto lackOf = [&](const Vector3& d) {
+    if (gauge(d, 0.0) >= 1.0) return 0.0;
+    double too_much = 0.0;
     double has = 1e-3 - std::min(horizontal, vertical);
     while (too_much - has > 1e-9) {
       const double middle = 0.5 * (has + too_much);
@@ -162,17 +155,12 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry)
     }
     return has;
   };
-  const double most = scene.limits.margin_time > 0.0 ? scene.limits.pair_margin : 0.0;
-  const double at_start = marginOf(apart(0.0), most);
-  const double before = marginOf(scene.committed - other.after(lag).p, 0.0);
-  const double least = std::min(std::max(at_start, before), 0.0);
-  const double margin = std::max(at_start, least);
-  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, at_start < most};
+  const double waived = gauge(apart(0.0), 0.0) < 1.0 ? lackOf(scene.committed - other.after(lag).p) : 0.0;
+  SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, waived < 0.0};
   const double end = std::min(std::max(scene.motion.duration(), other.duration() - lag) + kSample,
                               entry.valid_until - scene.motion.epoch());
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
-    const double kept = time < scene.limits.margin_time - kSameTime ? margin : least;
-    const double slack = (gauge(apart(time), kept) - 1.0) * (std::min(horizontal, vertical) + kept);
+    const double slack = (gauge(apart(time), waived) - 1.0) * (std::min(horizontal, vertical) + waived);
     if (slack < result.slack) {
       result.slack = slack;
       result.time = time;
@@ -184,9 +172,9 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry)
 SampledSlack sampledSlack(const CheckScene& scene) {
   SampledSlack least{std::numeric_limits<double>::infinity(), 0.0, false};
   const auto include = [&least](const SampledSlack& slack) {
-    const bool used = least.used_margin || slack.used_margin;
+    const bool waived = least.waived || slack.waived;
     if (slack.slack < least.slack) least = slack;
-    least.used_margin = used;
+    least.waived = waived;
   };
   for (const PredictedObstacle& obstacle : scene.surroundings.obstacles) include(sampledObstacleSlack(scene, obstacle));
   for (const OtherMotion& other : scene.surroundings.uavs) include(sampledPairSlack(scene, other));

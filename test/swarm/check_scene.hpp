@@ -24,7 +24,7 @@ class CheckScene {
   void plan(const Trajectory& trajectory);
   /// An obstacle of any shape, exponents 2 to 10, about `clearance` [m] from where the motion is at some time.
   void addRandomObstacle(Random& random, double clearance);
-  /// 0.3 m from its surface, and 0.2 m of margin; seen at the epoch.
+  /// 0.5 m from its surface; seen at the epoch.
   void addObstacle(const Superellipsoid& body);
   /// A UAV on a random motion of its own epoch and dt, about `gauge` from this one at some time.
   void addRandomUav(Random& random, double gauge);
@@ -46,12 +46,12 @@ class CheckScene {
 
 /// The least clearance beyond what the rule of plan_check.hpp demands, by samples 1 ms apart until the end of the
 /// look-ahead: obstacles in metres, pairs in metres along the shorter semi-axis. Computed from the rule as it is
-/// stated, with none of the check's code but CommittedMotion::after. `used_margin`: whether a start had less than
-/// all of it. Where it gets 0.3 m too small the rest is left out.
+/// stated, with none of the check's code but CommittedMotion::after. `waived`: whether less than the
+/// least was demanded, since the motion before had less. Where it gets 0.3 m too small the rest is left out.
 struct SampledSlack {
   double slack = 0.0;
   double time = 0.0;  ///< of the least [s]
-  bool used_margin = false;
+  bool waived = false;
 };
 SampledSlack sampledSlack(const CheckScene& scene);
 SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstacle& obstacle);

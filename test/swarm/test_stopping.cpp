@@ -26,7 +26,7 @@ KinematicState randomState(Random& random, double speed, double acceleration) {
 /// Largest ratio to a bound among samples 1 ms apart, by the vehicle's own model.
 double sampledRatio(const FlightBounds& bounds, const KinematicState& begin, const Vector3& jerk, double dt) {
   const VehicleParameters vehicle;
-  double ratio = 0.0;
+  double ratio = jerk.norm() / bounds.max_jerk;
   for (int i = 0; i * 1e-3 <= dt; ++i) {
     const KinematicState x = propagate(begin, jerk, i * 1e-3);
     const Vector3 a = thrustAcceleration(x.v, x.a, vehicle);

@@ -32,14 +32,14 @@ struct LimitParameters {
   double max_speed = 5.0;                                             ///< Euclidean norm [m/s]
   double max_acceleration = std::numeric_limits<double>::infinity();  ///< Euclidean norm [m/s^2]
   double max_jerk = 30.0;               ///< Euclidean norm; no plan that asks for more flies [m/s^3]
-  double max_thrust_ratio = 2.0;                                      ///< T_max / (M g) of (6)
+  double max_thrust_ratio = 2.0;        ///< T_max / (M g) of (6)
   double min_thrust_ratio = 0.2;        ///< least (A_z + g) / g, keeps the vehicle upright
   double uav_radius = 0.3;              ///< least distance of a UAV's centre to an obstacle's surface [m]
   double pair_distance = 2.0;           ///< R_CA of (14), horizontal [m]
   double pair_distance_vertical = 2.0;  ///< vertical semi-axis of the pair ellipsoid [m]; unset: pair_distance
   double tracking_margin = 0.2;         ///< kept on top of uav_radius by the planner [m]; unset: by rule
   double pair_margin = 0.2;             ///< kept on top of the pair distances by the planner [m]; unset: by rule
-  double tracking_error = 0.1;          ///< how far a vehicle may stray from its motion, part of the margins [m];
+  double tracking_error = 0.05;         ///< how far a vehicle may stray from its motion, part of the margins [m];
                                         ///< unset: by rule
 
   // False only for negative controls:
@@ -96,7 +96,7 @@ struct InputParameters {
   double track_growth_time = 2.0;  ///< the velocity of a track is in doubt for at most so long after its stamp [s]
   double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]
   double odometry_noise = 0.15;    ///< deviations up to this may be noise alone [m]
-  int lost_setpoints = 2;          ///< so many trajectories in a row may fail to reach a vehicle
+  int lost_setpoints = 1;          ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
   bool autostart = true;           ///< start as soon as every UAV's odometry has arrived
 };
 

@@ -14,13 +14,14 @@ namespace swarm_planner {
 //
 // The rule for whatever is demanded, distances and workspace alike.
 //
-//   Demanded is `least`, all along. Where the motion committed before has less at the time at which the plan starts (UAVs
-//   may stand closer than that before the first plan, an obstacle may appear beside one), what it has takes the place of
-//   `least`: a plan need not be better than what flies, and must not be worse.
+//   Demanded is `least`, all along. Where the motion committed before has less at the time at which the plan starts
+//   (UAVs may stand closer than that before the first plan, an obstacle may appear beside one), what it has takes the
+//   place of `least`: a plan need not be better than what flies, and must not be worse.
 //
 // Why it is made so. Let a motion, from its own start on, be followed to within e, and let `least` be the hard distance
 // plus e (twice e for a pair). Then
-//  - whoever flies a motion that was accepted keeps the hard distance, wherever its start was: every accepted motion keeps
+//  - whoever flies a motion that was accepted keeps the hard distance, wherever its start was: every accepted motion
+//  keeps
 //    `least`, for good;
 //  - a refused plan changes nothing: the motion committed before goes on, accepted to its end and its rest;
 //  - the motion committed before, from any later point of it on, would be accepted again: it keeps its distance, which

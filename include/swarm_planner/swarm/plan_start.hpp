@@ -13,14 +13,14 @@ KinematicState predictFromMeasurement(const UavMeasurement& measurement, double 
 
 /// The share of a measured deviation (`dp` [m], `dv` [m/s]) that is taken for one of the vehicle, not of the
 /// measurement: 1 for a large one, kLeastCarried up to `band` [m], of position or of the way that the velocity makes in
-/// `tracking_time` [s]. What is not carried is measured again: a lasting deviation is carried after some cycles, noise is
-/// averaged.
+/// `tracking_time` [s]. What is not carried is measured again: a lasting deviation is carried after some cycles, noise
+/// is averaged.
 constexpr double kLeastCarried = 0.2;
 double carriedShare(const Vector3& dp, const Vector3& dv, double band, double tracking_time);
 
 /// The state that a UAV will have at `epoch`: where its motion puts it (`planned`), plus the carried share of the
-/// deviation that was measured from where it was to be then (`expected`), which its tracking lets decay with time constant
-/// tracking_time.
+/// deviation that was measured from where it was to be then (`expected`), which its tracking lets decay with time
+/// constant tracking_time.
 KinematicState carryDeviation(const KinematicState& planned, const KinematicState& expected,
                               const UavMeasurement& measurement, double epoch, const InputParameters& parameters);
 

@@ -9,9 +9,9 @@
 
 namespace swarm_planner {
 
-/// Sorts the UAVs of Problem 2 into rounds. UAVs take turns by index from a first one on, cyclically. Every UAV comes in
-/// a later round than all neighbours whose turn is earlier, so that solving a round's UAVs in any order or at once gives
-/// what solving all one by one gives.
+/// Sorts the UAVs of Problem 2 into rounds. UAVs take turns by index from a first one on, cyclically. Every UAV comes
+/// in a later round than all neighbours whose turn is earlier, so that solving a round's UAVs in any order or at once
+/// gives what solving all one by one gives.
 class SolveOrder {
  public:
   /// Memory for `uavs` UAVs.

@@ -24,8 +24,8 @@ class Surroundings {
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
   /// Nothing is known of the UAV; others need not keep clear of it.
   void setUnknown(std::size_t uav);
-  /// The UAV flies `newest`, unless its setpoints were lost: then `older` (null: no other), which others keep clear of
-  /// as long as lost_setpoints trajectories in a row may be missing. Both have to outlive the cycle.
+  /// The UAV flies `newest`, unless its setpoints were lost: then `older` (null: no other), until the cycle after the
+  /// newest one's sends others. Both have to outlive the cycle.
   void setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
 
   /// The same in the course of the cycle, for a UAV that has its new motion; within the area that others were told of.
@@ -65,7 +65,7 @@ class Surroundings {
   const Parameters& parameters_;
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
-  double epoch_ = 0.0;                     ///< of the cycle [s]
+  double epoch_ = 0.0;  ///< of the cycle [s]
   std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedObstacle> checked_obstacles_;
   std::vector<Motions> motions_;

@@ -50,14 +50,14 @@ enum class Reason : std::uint8_t {
   kWaitingForStart,     ///< autostart is off
   kOdometryStale,       ///< older than odometry_timeout
   kOdometryFromFuture,
-  kOdometryNotFinite,    ///< NaN, infinite or of a size that no UAV is at
-  kSolverFailed,         ///< the QP had no answer; the committed motion goes on
-  kPlanRefused,          ///< the check refused the plan; the committed motion goes on
-  kBraking,              ///< the committed motion is no longer safe either; brakes at once
-  kUnsafeRest,           ///< an obstacle will come to where the UAV comes to rest, whatever it plans
-  kNoSafePlan,           ///< the least violating motion flies
-  kOverrun,              ///< no time was left to plan; the committed motion goes on
-  kStraying,             ///< the UAV is farther from its motion than tracking_margin
+  kOdometryNotFinite,  ///< NaN, infinite or of a size that no UAV is at
+  kSolverFailed,       ///< the QP had no answer; the committed motion goes on
+  kPlanRefused,        ///< the check refused the plan; the committed motion goes on
+  kBraking,            ///< the committed motion is no longer safe either; brakes at once
+  kUnsafeRest,         ///< an obstacle will come to where the UAV comes to rest, whatever it plans
+  kNoSafePlan,         ///< the least violating motion flies
+  kOverrun,            ///< no time was left to plan; the committed motion goes on
+  kStraying,           ///< the UAV is farther from its motion than tracking_margin
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -75,10 +75,11 @@ struct UavReport {
   double solve_time = 0.0;  ///< [s] of wall clock
   int sqp_iterations = 0;
   int qp_iterations = 0;
-  bool solved = false;      ///< a QP had an answer
+  bool solved = false;                           ///< a QP had an answer
   CheckReason refusal = CheckReason::kAccepted;  ///< of the solver's plan; the check may have passed a shorter step
-  double max_slack = 0.0;   ///< largest violation of a constraint by what flies [m, m/s, m/s^2]
-  double deviation = 0.0;   ///< of the UAV from what it was to fly, as measured [m]
+  bool stays = false;      ///< of the solver's plan nothing passed: the motion goes on from where the UAV will be
+  double max_slack = 0.0;  ///< largest violation of a constraint by what flies [m, m/s, m/s^2]
+  double deviation = 0.0;  ///< of the UAV from what it was to fly, as measured [m]
   double obstacle_clearance =
       0.0;                     ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
   double pair_distance = 0.0;  ///< smallest predicted centre distance to another UAV [m]; +inf without

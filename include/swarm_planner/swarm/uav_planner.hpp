@@ -27,7 +27,7 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  ActiveRows active;              ///< of the last QP, at `active_epoch`
+  ActiveRows active;  ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
@@ -69,9 +69,9 @@ class UavPlanner {
   CheckSurroundings check_;
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
 
-  Trajectory plan_;     ///< in work
-  Trajectory shifted_;  ///< the motion flown, from the start in work on
-  Trajectory step_;     ///< between the two
+  Trajectory plan_;           ///< in work
+  Trajectory shifted_;        ///< the motion flown, from the start in work on
+  Trajectory step_;           ///< between the two
   CommittedMotion motion_;    ///< of the plan that is checked
   CommittedMotion proposed_;  ///< of the solver's own plan, if it was refused
   bool has_proposal_ = false;
