@@ -23,6 +23,8 @@ TEST(Overrun, LeavesEveryUavWithItsMotionAndSaysSo) {
       EXPECT_EQ(report.uavs[i].reason, Reason::kOverrun);
       EXPECT_TRUE(report.uavs[i].planned) << "its motion is to be published again";
       EXPECT_EQ(report.uavs[i].sqp_iterations, 0);
+      const CommittedMotion& motion = flight.planner().committed(i);
+      EXPECT_TRUE(motion.pieces() == 0 || motion.epoch() > report.epoch - motion.dt()) << "what is over is published";
       for (double ahead = 0.0; ahead < 20.0; ahead += 0.7) {
         const double t = report.epoch + ahead;
         ASSERT_LT((flight.planner().committed(i).at(t).p - before[i].at(t).p).norm(), 1e-9);
