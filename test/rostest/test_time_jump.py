@@ -52,7 +52,8 @@ class TimeJumpTest(unittest.TestCase):
             vehicle.trajectories.clear()
             for trajectory in vehicle.trajectories.wait_for_more(5):
                 self.assertLess(trajectory.header.stamp, jumped)
-        for uav in self.planner.status.last().uavs:
+        # Of the first plans: these vehicles stand still whatever they are sent, so later ones find them astray.
+        for uav in after.uavs:
             self.assertTrue(uav.planned)
             self.assertEqual(uav.reason, '')
 

@@ -26,6 +26,8 @@ TEST(Overrun, PlansForOneAndLeavesTheOthersWithTheirMotions) {
     EXPECT_EQ(report.uavs[skipped].state, UavState::kFallback);
     EXPECT_TRUE(report.uavs[skipped].planned) << "its motion is to be published again";
     EXPECT_EQ(report.uavs[skipped].sqp_iterations, 0);
+    const CommittedMotion& motion = flight.planner().committed(skipped);
+    EXPECT_TRUE(motion.pieces() == 0 || motion.epoch() > report.epoch - motion.dt()) << "what is over is published";
     for (double ahead = 0.0; ahead < 20.0; ahead += 0.7) {
       const double t = report.epoch + ahead;
       ASSERT_LT((flight.planner().committed(skipped).at(t).p - before[skipped].at(t).p).norm(), 1e-9);
