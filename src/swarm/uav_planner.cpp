@@ -127,7 +127,7 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
     record.planned = true;
     report.reason = report.stays ? Reason::kPlanRefused : Reason::kNone;
   } else {
-    report.reason = fallBack(epoch, record);
+    report.reason = fallBack(uav, epoch, record, surroundings);
   }
   surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
   fillReport(epoch, record, report);
@@ -153,7 +153,8 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
   if (verdict.accepted()) return verdict;
   report.refusal = verdict.reason;
-  if (verdict.reason != CheckReason::kNotFinite && verdict.reason != CheckReason::kDiscontinuous) {
+  const bool is_motion = verdict.reason != CheckReason::kNotFinite && verdict.reason != CheckReason::kDiscontinuous;
+  if (is_motion && surroundings.isWithinArea(uav, motion_)) {
     has_proposal_ = true;
     proposed_ = motion_;
     proposal_conflict_ = verdict.reason == CheckReason::kRestingPlace ? epoch + verdict.time : epoch;
@@ -183,7 +184,7 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
   return verdict;
 }
 
-Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
+Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
   record.motions.goOn(epoch);
   kept_ = record.motions.newest();
   const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
@@ -192,7 +193,8 @@ Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
   StopManoeuvre stop;
   planStop(record.start, problem_.dt, relieveBounds(limits_.bounds, record.start, kBoundSlack), stop);
   stop_.assignStop(epoch, stop);
-  if (stop.within_bounds && checkClearance(stop_, committed_, limits_, check_).accepted()) {
+  const bool may_stop = surroundings.isWithinArea(uav, stop_);
+  if (may_stop && stop.within_bounds && checkClearance(stop_, committed_, limits_, check_).accepted()) {
     record.motions.commit(stop_);
     record.planned = true;
     return Reason::kBraking;
@@ -212,7 +214,7 @@ Reason UavPlanner::fallBack(double epoch, UavRecord& record) {
     best = &motion;
   };
   if (has_proposal_) consider(proposed_, proposal_conflict_);
-  consider(stop_, epoch);
+  if (may_stop) consider(stop_, epoch);
   if (best != &kept_) {
     record.motions.commit(*best);
     record.planned = true;

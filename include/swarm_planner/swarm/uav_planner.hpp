@@ -55,7 +55,7 @@ class UavPlanner {
                        UavReport& report);
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
   /// Without a plan that passed: what flies, and why.
-  Reason fallBack(double epoch, UavRecord& record);
+  Reason fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
   void fillReport(double epoch, const UavRecord& record, UavReport& report);
 
   /// What was active in the last plan's QP, moved on to `epoch`.
