@@ -10,6 +10,7 @@
 #include "obstacles/random_bodies.hpp"
 #include "support/flight_problem.hpp"
 #include "support/random.hpp"
+#include "support/resting_prediction.hpp"
 #include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 #include "swarm_planner/problem/moving_body.hpp"
 

@@ -10,6 +10,7 @@
 
 #include "support/flight_problem.hpp"
 #include "support/random.hpp"
+#include "support/resting_prediction.hpp"
 #include "swarm_planner/problem/passing_side.hpp"
 
 namespace swarm_planner {

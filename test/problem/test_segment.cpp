@@ -9,6 +9,7 @@
 
 #include "support/flight_problem.hpp"
 #include "support/random.hpp"
+#include "support/resting_prediction.hpp"
 #include "swarm_planner/problem/segment.hpp"
 
 namespace swarm_planner {

@@ -58,7 +58,4 @@ void predict(const Motion& motion, double epoch, double dt, PredictedMotion& pre
   for (const Vector3& point : predicted.points) predicted.box.include(point);
 }
 
-/// Prediction of a UAV that has no plan: it rests at `position`.
-void predictResting(const Vector3& position, PredictedMotion& motion);
-
 }  // namespace swarm_planner
