@@ -150,8 +150,10 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   report.solved = result.solved;
   if (!result.solved) plan_ = shifted_;
 
+  report.max_slack = result.max_violation;
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
-  if (verdict.accepted()) return verdict;
+  flies_whole_plan_ = verdict.accepted();
+  if (flies_whole_plan_) return verdict;
   report.refusal = verdict.reason;
   const bool is_motion = verdict.reason != CheckReason::kNotFinite && verdict.reason != CheckReason::kDiscontinuous;
   if (is_motion && surroundings.isWithinArea(uav, motion_)) {
@@ -223,15 +225,15 @@ Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, co
 }
 
 void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& report) {
-  // As flown: the plan in work may not be it.
-  for (std::size_t k = 0; k <= kHorizon; ++k) {
-    step_.knots[k] = record.motions.newest().at(epoch + static_cast<double>(k) * problem_.dt);
+  if (!flies_whole_plan_) {
+    for (std::size_t k = 0; k <= kHorizon; ++k) {
+      plan_.knots[k] = record.motions.newest().at(epoch + static_cast<double>(k) * problem_.dt);
+    }
+    report.max_slack = planViolation(problem_, plan_).largest;
   }
-  step_.dt = problem_.dt;
-  const PredictedClearance clearance = predictedClearance(problem_, step_);
+  const PredictedClearance clearance = predictedClearance(problem_, plan_);
   report.obstacle_clearance = clearance.obstacle;
   report.pair_distance = clearance.pair;
-  report.max_slack = planViolation(problem_, step_).largest;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();
   report.lag = problem_.targets[0].arc_length - record.progress;

@@ -69,11 +69,12 @@ class UavPlanner {
   CheckSurroundings check_;
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
 
-  Trajectory plan_;           ///< in work
-  Trajectory shifted_;        ///< the motion flown, from the start in work on
-  Trajectory step_;           ///< between the two
-  CommittedMotion motion_;    ///< of the plan that is checked
-  CommittedMotion proposed_;  ///< of the solver's own plan, if it was refused
+  Trajectory plan_;                ///< in work
+  Trajectory shifted_;             ///< the motion flown, from the start in work on
+  Trajectory step_;                ///< between the two
+  CommittedMotion motion_;         ///< of the plan that is checked
+  CommittedMotion proposed_;       ///< of the solver's own plan, if it was refused
+  bool flies_whole_plan_ = false;  ///< the solver's plan passed as it is
   bool has_proposal_ = false;
   double proposal_conflict_ = 0.0;  ///< when it was refused for what happens at its rest [s]
   CommittedMotion kept_;
