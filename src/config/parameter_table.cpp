@@ -226,6 +226,10 @@ void addInput(TableBuilder& table) {
   table.wholeNumber(
       "lost_setpoints", Range::closed(0.0, 1.0), [](P& p) -> int& { return p.input.lost_setpoints; },
       "so many trajectories in a row may fail to reach a vehicle: with 1 others keep clear of the one before, too");
+  table.wholeNumber(
+      "setpoint_repeats", Range::closed(0.0, 10.0), [](P& p) -> int& { return p.input.setpoint_repeats; },
+      "each trajectory is sent so many times more, spread over its cycle, for links that lose messages");
+  table.withRule();
   table.boolean(
       "autostart", [](P& p) -> bool& { return p.input.autostart; },
       "start as soon as the odometry of every UAV has arrived");

@@ -52,16 +52,22 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
 
 RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
   const double period = mission_.parameters.time.cycle_period;
-  long long cycle = -1;  // the one whose plans begin at t = 0
+  const int sendings = 1 + mission_.parameters.input.setpoint_repeats;
+  long long sending = -sendings;  // the first of each cycle follows on planning; cycle -1 plans from t = 0 on
   long long evaluation = 0;
   while (!monitor_.ended()) {
     // Both from counters: a sum of periods would drift.
-    const double cycle_time = static_cast<double>(cycle) * period;
+    const double sending_time = static_cast<double>(sending) * period / sendings;
     const double evaluation_time = static_cast<double>(evaluation) * kEvaluationPeriod;
-    measureBefore(std::min(cycle_time, evaluation_time) - kSameInstant);
-    if (cycle_time < evaluation_time - kSameInstant) {
-      planCycle(cycle_time, static_cast<double>(cycle + 1) * period, observers);
-      ++cycle;
+    measureBefore(std::min(sending_time, evaluation_time) - kSameInstant);
+    if (sending_time < evaluation_time - kSameInstant) {
+      if (sending % sendings == 0) {
+        planCycle(sending_time, static_cast<double>(sending / sendings + 1) * period, observers);
+      } else {
+        moveTo(sending_time);
+      }
+      sendSetpoints(sending_time);
+      ++sending;
     } else {
       evaluate(evaluation_time, observers);
       ++evaluation;
@@ -118,19 +124,19 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
   measureBefore(now + kSameInstant);
   receiveMeasurements(now);
   snapshot_.now = now;
-  const CycleReport& report = planner_.plan(snapshot_, epoch);
-  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
-    if (report.uavs[i].planned) sendSetpoints(i, now);
-  }
-  record(report);
-  for (RunObserver* observer : observers) observer->onCycle(epoch, report);
+  report_ = &planner_.plan(snapshot_, epoch);
+  record(*report_);
+  for (RunObserver* observer : observers) observer->onCycle(epoch, *report_);
 }
 
-void ClosedLoopRun::sendSetpoints(std::size_t uav, double now) {
-  const CommittedMotion& motion = planner_.committed(uav);
-  sampleMotion(motion, motion.epoch(), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
-  setpoint_links_[uav].send(now, setpoints_);
-  receiveSetpoints(uav, now);
+void ClosedLoopRun::sendSetpoints(double now) {
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    if (!report_->uavs[i].planned) continue;
+    const CommittedMotion& motion = planner_.committed(i);
+    sampleMotion(motion, motion.epoch(), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);
+    setpoint_links_[i].send(now, setpoints_);
+    receiveSetpoints(i, now);
+  }
 }
 
 void ClosedLoopRun::receiveSetpoints(std::size_t uav, double now) {

@@ -41,6 +41,7 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       names_(namesOf(planner_)),
       frame_(options.planning_frame.empty() ? mission.scenario.frame_id : options.planning_frame),
       cycle_period_(mission.parameters.time.cycle_period),
+      setpoint_repeats_(mission.parameters.input.setpoint_repeats),
       inputs_(names_, frame_, options, mission.parameters.input),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
@@ -54,6 +55,8 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
   ros::NodeHandle private_node("~");
   set_reference_server_ = private_node.advertiseService(kSetReferenceService, &PlannerNode::setReference, this);
   cycle_timer_ = node.createTimer(ros::Duration(cycle_period_), &PlannerNode::runCycle, this);
+  repeat_timer_ = node.createTimer(ros::Duration(cycle_period_ / (1 + setpoint_repeats_)),
+                                   &PlannerNode::repeatSetpoints, this, false, false);
   diagnostics_timer_ =
       node.createWallTimer(ros::WallDuration(options.diagnostic_period), [this](const ros::WallTimerEvent&) {
         diagnostics_.publish(inputs_.store().uavs(), inputs_.store().tracks(), toSeconds(ros::Time::now()));
@@ -77,6 +80,18 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   planner_.plan(snapshot_, epoch, budget_.forPlansDueIn(epoch - toSeconds(ros::Time::now())));
   const bool deadline_missed = toSeconds(ros::Time::now()) > epoch;
   publishCycle(now, deadline_missed);
+  startRepeats();
+}
+
+void PlannerNode::startRepeats() {
+  repeat_timer_.stop();
+  repeats_left_ = setpoint_repeats_;
+  if (repeats_left_ > 0) repeat_timer_.start();
+}
+
+void PlannerNode::repeatSetpoints(const ros::TimerEvent&) {
+  outputs_.repeatSetpoints();
+  if (--repeats_left_ <= 0) repeat_timer_.stop();
 }
 
 void PlannerNode::publishCycle(double now, bool deadline_missed) {

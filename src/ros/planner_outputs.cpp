@@ -14,7 +14,8 @@ PlannerOutputs::PlannerOutputs(const std::vector<std::string>& uav_names, const 
       setpoint_horizon_(options.setpoint_horizon),
       delivery_(options.setpoint_delivery),
       trajectories_(uav_names.size()),
-      waiting_(uav_names.size(), false) {
+      waiting_(uav_names.size(), false),
+      sent_(uav_names.size(), false) {
   ros::NodeHandle node;
   ros::NodeHandle private_node("~");
   for (const std::string& name : uav_names) {
@@ -47,10 +48,21 @@ void PlannerOutputs::publishPlans(const SwarmPlanner& planner, const std::vector
 void PlannerOutputs::sendWaitingSetpoints() {
   for (std::size_t uav = 0; uav < setpoints_.size(); ++uav) {
     if (waiting_[uav]) setpoints_[uav].publish(trajectories_[uav]);
+    sent_[uav] = waiting_[uav];
     waiting_[uav] = false;
   }
 }
 
-void PlannerOutputs::clear() { waiting_.assign(waiting_.size(), false); }
+void PlannerOutputs::repeatSetpoints() {
+  if (delivery_ == SetpointDelivery::kAtEpoch) return;
+  for (std::size_t uav = 0; uav < setpoints_.size(); ++uav) {
+    if (sent_[uav]) setpoints_[uav].publish(trajectories_[uav]);
+  }
+}
+
+void PlannerOutputs::clear() {
+  waiting_.assign(waiting_.size(), false);
+  sent_.assign(sent_.size(), false);
+}
 
 }  // namespace swarm_planner

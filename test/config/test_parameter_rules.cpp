@@ -85,6 +85,14 @@ TEST(ParameterRules, TrackingErrorIsHalfOfTheSmallerMargin) {
   EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"tracking_error", 0.01}}).limits.tracking_error, 0.01);
 }
 
+// Sent once, three trajectories in a row are lost too often; over links that lose nothing repeats only cost.
+TEST(ParameterRules, TrajectoriesAreRepeatedWhereMessagesAreLost) {
+  EXPECT_EQ(resolved({}).input.setpoint_repeats, 0);
+  EXPECT_EQ(resolved({{"drop", 0.01}}).input.setpoint_repeats, 1);
+  EXPECT_EQ(resolved({{"drop", 0.2}, {"setpoint_repeats", 0}}).input.setpoint_repeats, 0);
+  EXPECT_EQ(resolved({{"setpoint_repeats", 3}}).input.setpoint_repeats, 3);
+}
+
 TEST(ParameterRules, TrackingErrorHasRoomInBothMargins) {
   const auto faults = [](double tracking_margin, double pair_margin, double error) {
     Faults found;

@@ -58,6 +58,7 @@ const Place kPlaces[] = {
     {"track_growth_time", 2.2, [](const Parameters& p) -> ParameterValue { return p.input.track_growth_time; }},
     {"tracking_time", 0.65, [](const Parameters& p) -> ParameterValue { return p.input.tracking_time; }},
     {"odometry_noise", 0.16, [](const Parameters& p) -> ParameterValue { return p.input.odometry_noise; }},
+    {"setpoint_repeats", 2, [](const Parameters& p) -> ParameterValue { return p.input.setpoint_repeats; }},
     {"lost_setpoints", 0, [](const Parameters& p) -> ParameterValue { return p.input.lost_setpoints; }},
     {"autostart", false, [](const Parameters& p) -> ParameterValue { return p.input.autostart; }},
     {"mass", 0.47, [](const Parameters& p) -> ParameterValue { return p.vehicle.mass; }},

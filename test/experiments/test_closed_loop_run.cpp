@@ -253,6 +253,27 @@ TEST(ClosedLoopRun, WhatIsLostNeverArrives) {
   EXPECT_EQ(recorder.positions.back(), mission.scenario.uavs[0].start);
 }
 
+TEST(ClosedLoopRun, RepeatedTrajectoriesGetThroughWhereMessagesAreLost) {
+  constexpr int kFlights = 400;
+  const auto lost = [](int repeats) {
+    Mission mission = twoUavs(0.2);  // one cycle's trajectory alone is due by then
+    mission.parameters.simulation.drop = 0.5;
+    mission.parameters.input.setpoint_repeats = repeats;
+    int waiting = 0;
+    for (std::uint64_t seed = 0; seed < kFlights; ++seed) {
+      StraightPlanner planner(2);
+      Recorder recorder;
+      ClosedLoopRun(mission, planner, seed).fly({&recorder});
+      waiting += recorder.positions.back() == mission.scenario.uavs[0].start ? 1 : 0;
+    }
+    return static_cast<double>(waiting) / kFlights;
+  };
+  // Four standard deviations of the share of so many flights.
+  EXPECT_NEAR(lost(0), 0.5, 0.1);
+  EXPECT_NEAR(lost(1), 0.25, 0.09);
+  EXPECT_NEAR(lost(3), 0.0625, 0.05);
+}
+
 TEST(ClosedLoopRun, LossesAndJitterMakeTheNewestMessageOlder) {
   Mission mission = twoUavs(60.0);
   mission.parameters.simulation.latency = 0.1;

@@ -27,6 +27,8 @@ class SetpointsTest(unittest.TestCase):
         cls.planner = Planner()
         cls.trajectories = {name: Recorder(name + '/command/trajectory', MultiDOFJointTrajectory) for name in UAVS}
         cls.at_epoch = Recorder('at_epoch/uav1/command/trajectory', MultiDOFJointTrajectory)
+        cls.repeated = Recorder('repeated/uav1/command/trajectory', MultiDOFJointTrajectory)
+        wait_for(lambda: cls.repeated.count() >= 30, 'trajectories sent several times')
         wait_for(lambda: cls.at_epoch.count() >= 10, 'trajectories delivered at their epoch')
         wait_for(lambda: all(each.count() >= 25 for each in cls.trajectories.values()), '25 trajectories per UAV')
 
@@ -66,6 +68,17 @@ class SetpointsTest(unittest.TestCase):
         # On a busy machine /clock reaches this node so late now and then that a message seems early.
         at_epoch = waits(self.at_epoch)
         self.assertLess(sum(1 for wait in at_epoch if wait > 0.1), 0.2 * len(at_epoch), at_epoch)
+
+    def test_are_repeated_as_configured(self):
+        by_epoch = {}
+        for message in self.repeated.all():
+            by_epoch.setdefault(message.header.stamp, []).append(message)
+        # The first and the last may be incomplete; a machine that stands still may lose some between.
+        counts = [len(by_epoch[epoch]) for epoch in sorted(by_epoch)[1:-1]]
+        self.assertEqual(max(counts), 3, counts)
+        self.assertGreater(sum(1 for count in counts if count == 3), 0.7 * len(counts), counts)
+        for messages in by_epoch.values():
+            self.assertTrue(all(message.points == messages[0].points for message in messages))
 
     def test_velocity_is_the_derivative_of_position(self):
         message = self.trajectories['uav3'].last()

@@ -55,6 +55,7 @@ ParameterMap parseParameterFile(const std::string& path, bool require_all, Fault
 ///   tracking_margin = a tenth of the smaller of uav_radius*2 and pair_distance, within [0.02, 0.2]
 ///   pair_margin = a tenth of pair_distance, at most 0.2, and at least tracking_margin
 ///   tracking_error = half of tracking_margin, at most a quarter of pair_margin
+///   setpoint_repeats = 1 where simulated links lose messages (drop > 0), otherwise 0
 Parameters resolveParameters(const ParameterMap& given, const std::map<std::string, double>& overrides,
                              const std::string& overrides_source, Faults& faults);
 

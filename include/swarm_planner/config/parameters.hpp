@@ -97,6 +97,8 @@ struct InputParameters {
   double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]
   double odometry_noise = 0.15;    ///< deviations up to this may be noise alone [m]
   int lost_setpoints = 1;          ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
+  int setpoint_repeats = 0;        ///< each trajectory is sent so many times more, spread over its cycle; unset: by
+                                   ///< rule
   bool autostart = true;           ///< start as soon as every UAV's odometry has arrived
 };
 

@@ -29,9 +29,9 @@ class RunObserver {
 /// Sensors measure at the instants of SensorClock; every message goes over a MessageLink of its own kind and UAV. Every
 /// cycle_period the planner gets a snapshot of what has arrived (the newest odometry of each vehicle, the newest tracks
 /// of the obstacles) and plans for the epoch one cycle_period later: what one cycle computes is flown from the next on.
-/// Plans are sampled at kSetpointPeriod and sent to the vehicles. The first epoch is t = 0: obstacles are at their
-/// start and targets begin to move then. The vehicles hover from t = -cycle_period on, where gusts set in; before that
-/// they stand at their start while the first messages are under way.
+/// Plans are sampled at kSetpointPeriod and sent to the vehicles, setpoint_repeats times more before the next cycle.
+/// The first epoch is t = 0: obstacles are at their start and targets begin to move then. The vehicles hover from t =
+/// -cycle_period on, where gusts set in; before that they stand at their start while the first messages are under way.
 class ClosedLoopRun {
  public:
   /// Distances, collisions and so on are evaluated this often [s].
@@ -50,7 +50,8 @@ class ClosedLoopRun {
   void measureBefore(double t);
   void receiveMeasurements(double now);
   void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
-  void sendSetpoints(std::size_t uav, double now);
+  /// To every vehicle that the last cycle left a motion to fly.
+  void sendSetpoints(double now);
   void receiveSetpoints(std::size_t uav, double now);
   void record(const CycleReport& report);
   void evaluate(double t, const std::vector<RunObserver*>& observers);
@@ -68,6 +69,7 @@ class ClosedLoopRun {
   MessageLink<std::vector<TrackedObstacle>> track_link_;
   RunMonitor monitor_;
   Snapshot snapshot_;
+  const CycleReport* report_ = nullptr;  ///< of the last cycle
   SetpointTrajectory setpoints_;
   std::vector<UavSample> samples_;
 

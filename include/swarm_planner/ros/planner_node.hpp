@@ -34,6 +34,9 @@ class PlannerNode {
  private:
   void runCycle(const ros::TimerEvent& event);
   void publishCycle(double now, bool deadline_missed);
+  /// Spreads the repeats of this cycle's setpoints over the time until the next cycle.
+  void startRepeats();
+  void repeatSetpoints(const ros::TimerEvent& event);
   /// Warns of UAVs that do not track, and raises the alarm for those that are not safe.
   void tellOperator() const;
   void resetAfterTimeJump(double now);
@@ -45,6 +48,7 @@ class PlannerNode {
   const std::vector<std::string> names_;
   const std::string frame_;
   const double cycle_period_;  ///< [s]
+  const int setpoint_repeats_;
   PlannerInputs inputs_;
   PlannerOutputs outputs_;
   PlannerDiagnostics diagnostics_;
@@ -55,10 +59,12 @@ class PlannerNode {
   PlannerStatus status_;
   double last_now_ = 0.0;    ///< ROS time of the last cycle [s]
   double last_epoch_ = 0.0;  ///< of the last cycle's plans [s]
+  int repeats_left_ = 0;     ///< of the last cycle's setpoints
   std::uint32_t deadline_misses_ = 0;
   std::uint32_t rejected_plans_ = 0;
 
   ros::Timer cycle_timer_;
+  ros::Timer repeat_timer_;
   ros::WallTimer diagnostics_timer_;
   ros::ServiceServer set_reference_server_;
 };

@@ -29,6 +29,9 @@ class PlannerOutputs {
   /// Setpoints first: vehicles wait for them; with SetpointDelivery::kAtEpoch they are kept until the next cycle. A UAV
   /// without a plan gets none. `inputs`: yaw is held as at the start.
   void publishPlans(const SwarmPlanner& planner, const std::vector<UavInput>& inputs, double now);
+  /// Sends the last cycle's setpoints once more, unless they are kept for their epoch: a driver that flies what comes
+  /// at once would begin anew.
+  void repeatSetpoints();
   /// Time has jumped back: what waits is of another time.
   void clear();
   void publishStatus(const PlannerStatus& status) { status_.publish(status); }
@@ -45,6 +48,7 @@ class PlannerOutputs {
   SetpointTrajectory samples_;
   std::vector<trajectory_msgs::MultiDOFJointTrajectory> trajectories_;  ///< per UAV
   std::vector<bool> waiting_;                                           ///< which of them are yet to be sent
+  std::vector<bool> sent_;                                              ///< which are the last cycle's and on their way
   SwarmPlan swarm_plan_;
 };
 
