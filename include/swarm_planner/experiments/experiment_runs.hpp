@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "swarm_planner/experiments/experiment_options.hpp"
@@ -13,6 +14,7 @@ namespace swarm_planner {
 struct ExperimentRun {
   Mission mission;
   std::uint64_t seed = 0;
+  std::optional<Workspace> goals;  ///< a rehearsal: where UAVs get random goals, one after the other
 };
 
 /// The runs that a command asks for, in the order in which they are reported. Throws ConfigError with the faults of all
