@@ -24,6 +24,7 @@ constexpr double kLeastGap = 3.0, kMostGap = 9.0;  // from one fault to the next
 constexpr double kCompanionShare = 0.25;           // of the faults that come with a second one
 constexpr double kCompanionDelay = 1.0;            // at most [s]
 constexpr double kShortest = 0.5, kLongest = 5.0;  // durations [s]
+static_assert(kLongest < kRehearsalTrackTimeout, "obstacles are to be remembered while their tracks are lost");
 
 /// Where the columns stand, as shares of the field's side.
 constexpr double kColumns[][2] = {{0.25, 0.3}, {0.7, 0.35}, {0.45, 0.75}};
@@ -36,7 +37,7 @@ struct MagnitudeRange {
 };
 constexpr MagnitudeRange kMagnitudes[] = {
     {FaultKind::kOdometryStale, 1.0, 3.0}, {FaultKind::kOdometryJump, 2.0, 6.0}, {FaultKind::kOdometryDrift, 0.5, 1.5},
-    {FaultKind::kPush, 1.0, 2.5},          {FaultKind::kWind, 2.0, 4.0},         {FaultKind::kTracksFlicker, 0.3, 0.9},
+    {FaultKind::kPush, 1.0, 2.5},          {FaultKind::kWind, 2.0, 4.0},         {FaultKind::kTracksFlicker, 0.2, 0.6},
 };
 
 ScenarioObstacle column(int id, double x, double y) {
@@ -112,8 +113,8 @@ Scenario rehearsal(int uavs, double duration, std::uint64_t seed) {
     scenario.uavs.push_back(straightUav(static_cast<std::size_t>(i), start, start, 0.0));
     scenario.uavs.back().reference.resize(1);
   }
-  scenario.obstacles.push_back(crosser(4, Vector3(-kLead, 0.5 * side, 7.0), Vector3(1.2, 0.0, 0.0)));
-  scenario.obstacles.push_back(crosser(5, Vector3(0.6 * side, side + kLead + 5.0, 9.0), Vector3(0.0, -1.5, 0.0)));
+  scenario.obstacles.push_back(crosser(4, Vector3(-kLead, 0.5 * side, 7.0), Vector3(0.6, 0.0, 0.0)));
+  scenario.obstacles.push_back(crosser(5, Vector3(0.6 * side, side + kLead + 5.0, 9.0), Vector3(0.0, -0.5, 0.0)));
   scenario.workspace = Workspace{field.min - Vector3(kMargin, kMargin, 2.0), field.max + Vector3::Constant(kMargin)};
   scenario.overrides = {{"max_speed", 4.0},     {"max_acceleration", 8.0}, {"uav_radius", 0.4},
                         {"pair_distance", 1.5}, {"tracking_margin", 0.8},  {"pair_margin", 1.6},

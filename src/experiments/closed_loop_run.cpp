@@ -152,8 +152,21 @@ void ClosedLoopRun::receiveMeasurements(double now) {
     odometry_links_[i].deliver(
         now, [this, i](double, const UavMeasurement& measurement) { snapshot_.uavs[i] = measurement; });
   }
-  track_link_.deliver(now,
-                      [this](double, const std::vector<TrackedObstacle>& tracks) { snapshot_.obstacles = tracks; });
+  track_link_.deliver(now, [this](double, const std::vector<TrackedObstacle>& tracks) {
+    for (const TrackedObstacle& track : tracks) receiveTrack(track);
+  });
+}
+
+/// Of each obstacle the newest: a message need not hold all of them.
+void ClosedLoopRun::receiveTrack(const TrackedObstacle& track) {
+  std::vector<TrackedObstacle>& known = snapshot_.obstacles;
+  const auto same = std::find_if(known.begin(), known.end(),
+                                 [&track](const TrackedObstacle& x) { return x.shape.id() == track.shape.id(); });
+  if (same != known.end()) {
+    *same = track;
+  } else {
+    known.push_back(track);
+  }
 }
 
 void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObserver*>& observers) {

@@ -24,7 +24,7 @@ double residentMemory() {
 /// Memory in use when the run is well under way, and at its end.
 class MemoryWatch : public RunObserver {
  public:
-  explicit MemoryWatch(double duration) : duration_(duration), begin_(std::min(60.0, 0.2 * duration)) {}
+  explicit MemoryWatch(double duration) : duration_(duration), begin_(std::min(600.0, 0.2 * duration)) {}
 
   void onSample(double, const std::vector<QuadSimulator>&, const std::vector<Superellipsoid>&) override {}
   void onCycle(double epoch, const CycleReport&) override {

@@ -44,6 +44,13 @@ ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const P
 
 }  // namespace
 
+ExperimentRun rehearsalRun(int uavs, double duration, std::uint64_t seed, ParameterMap given) {
+  given.emplace("track_timeout", kRehearsalTrackTimeout);
+  ExperimentRun run = generatedRun(rehearsal(uavs, duration, seed), seed, given);
+  run.goals = rehearsalField(uavs);
+  return run;
+}
+
 std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) {
   const ParameterMap given = givenParameters(options);
   std::vector<ExperimentRun> runs;
@@ -73,8 +80,7 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
     case ExperimentCommand::kRehearse:
       for (const std::uint64_t seed : options.seeds) {
         constexpr double kHour = 3600.0;  // [s]
-        runs.push_back(generatedRun(rehearsal(options.uavs.front(), kHour * options.hours, seed), seed, given));
-        runs.back().goals = rehearsalField(options.uavs.front());
+        runs.push_back(rehearsalRun(options.uavs.front(), kHour * options.hours, seed, given));
       }
       break;
     case ExperimentCommand::kHelp:

@@ -51,16 +51,26 @@ void FaultWatch::onSample(double t, const std::vector<QuadSimulator>& vehicles, 
   for (; begun_ < records_.size() && records_[begun_].fault.at <= t; ++begun_) {
     Record& record = records_[begun_];
     if (record.uav < vehicles.size()) record.place = vehicles[record.uav].state().p;
-    for (std::size_t i = 0; i < uavs_.size(); ++i) {
-      if (!concerns(record, i)) continue;
-      uavs_[i].clear_at = uavs_[i].waiting ? std::max(uavs_[i].clear_at, record.end) : record.end;
-      uavs_[i].waiting = true;
-    }
+    begin(record);
   }
   while (finished_ < begun_ && t > records_[finished_].end + kAftermath) ++finished_;
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
     if (record.uav < vehicles.size() && t <= record.end + kStrayTime) watchVehicle(record, t, vehicles[record.uav]);
+  }
+}
+
+void FaultWatch::begin(Record& record) {
+  for (std::size_t i = 0; i < uavs_.size(); ++i) {
+    if (!concerns(record, i)) continue;
+    Uav& uav = uavs_[i];
+    if (!uav.waiting) {
+      uav.waiting = uav.tracks;
+      uav.unrecovered = static_cast<std::size_t>(&record - records_.data());
+      uav.clear_at = record.end;
+    }
+    uav.clear_at = std::max(uav.clear_at, record.end);
+    if (!uav.waiting) --record.waiting;
   }
 }
 
@@ -84,7 +94,8 @@ void FaultWatch::onCycle(double epoch, const CycleReport& report) {
     uav.has_due = uav.has_next;
     uav.has_next = report.uavs[i].planned;
     if (uav.has_next) uav.next = planner_.committed(i);
-    if (uav.waiting && now >= uav.clear_at && report.uavs[i].state == UavState::kTracking) recover(i, epoch);
+    uav.tracks = report.uavs[i].state == UavState::kTracking;
+    if (uav.waiting && uav.tracks && now >= uav.clear_at) recover(i, epoch);
   }
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
@@ -103,7 +114,6 @@ void FaultWatch::recover(std::size_t uav, double epoch) {
     records_[i].recovery_time = std::max(records_[i].recovery_time, epoch - recovered.clear_at);
     --records_[i].waiting;
   }
-  recovered.unrecovered = begun_;
   recovered.waiting = false;
 }
 

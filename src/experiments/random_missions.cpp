@@ -22,6 +22,13 @@ double periodOf(const Superellipsoid& obstacle, const Workspace& field) {
   return to_middle > 0.0 ? 2.0 * to_middle : std::numeric_limits<double>::infinity();
 }
 
+/// The obstacle where, on its way, it is nearest to `point`.
+Superellipsoid abreast(const Superellipsoid& obstacle, const Vector3& point) {
+  const double speed_squared = obstacle.velocity().squaredNorm();
+  if (speed_squared == 0.0) return obstacle;
+  return obstacle.movedBy((point - obstacle.center()).dot(obstacle.velocity()) / speed_squared);
+}
+
 }  // namespace
 
 RandomMissions::RandomMissions(const Mission& mission, const Workspace& field, IterativePlanner& planner,
@@ -35,7 +42,7 @@ RandomMissions::RandomMissions(const Mission& mission, const Workspace& field, I
       legs_(mission.scenario.uavs.size()) {
   for (const ScenarioObstacle& obstacle : mission.scenario.obstacles) {
     const Superellipsoid shape = makeObstacle(obstacle);
-    if (obstacle.velocity.isZero()) standing_.push_back(shape);
+    obstacles_.push_back(shape);
     periods_.push_back(periodOf(shape, field));
   }
   for (std::size_t i = 0; i < legs_.size(); ++i) legs_[i].goal = mission.scenario.uavs[i].start;
@@ -72,8 +79,9 @@ bool RandomMissions::isFree(const Vector3& goal, std::size_t uav) const {
   for (std::size_t i = 0; i < legs_.size(); ++i) {
     if (i != uav && (legs_[i].goal - goal).norm() < apart_) return false;
   }
-  return std::all_of(standing_.begin(), standing_.end(),
-                     [&](const Superellipsoid& obstacle) { return obstacle.signedDistance(goal) >= clearance_; });
+  return std::all_of(obstacles_.begin(), obstacles_.end(), [&](const Superellipsoid& obstacle) {
+    return abreast(obstacle, goal).signedDistance(goal) >= clearance_;
+  });
 }
 
 double RandomMissions::obstacleTime(std::size_t index, double t) const {

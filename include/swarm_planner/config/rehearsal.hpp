@@ -11,6 +11,9 @@ namespace swarm_planner {
 /// dodge.
 Workspace rehearsalField(int uavs);
 
+/// The track_timeout with which a rehearsal is flown [s]: tracks are lost for shorter.
+constexpr double kRehearsalTrackTimeout = 6.0;
+
 /// `uavs` UAVs at random starts among three standing columns, two moving obstacles that cross the field, and faults of
 /// every kind at random times on random UAVs, sometimes two at once, for `duration` [s]; the last 20 s are without.
 /// Each reference is its start alone: somebody else gives the UAVs goals. Moving obstacles begin 40 m or more before

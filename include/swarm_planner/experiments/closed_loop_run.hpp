@@ -67,6 +67,7 @@ class ClosedLoopRun {
   void sendOdometry(double now);
   void sendTracks(double now);
   void receiveMeasurements(double now);
+  void receiveTrack(const TrackedObstacle& track);
   double obstacleTime(std::size_t index, double t) const;
   void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
   /// To every vehicle that the last cycle left a motion to fly.

@@ -20,7 +20,8 @@ namespace swarm_planner {
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
 ///
 /// A UAV flies again when a new plan for it begins and its state is TRACKING; the time counts from the end of the last
-/// of the faults that concerned it and overlapped.
+/// of the faults that concerned it and overlapped. A UAV that was not tracking anyway when the fault began, because an
+/// obstacle is in its way, is not waited for.
 class FaultWatch : public RunObserver {
  public:
   static constexpr double kReportTime = 1.0;    ///< [s]
@@ -52,6 +53,7 @@ class FaultWatch : public RunObserver {
   struct Uav {
     CommittedMotion due, next;  ///< due: is flown until the epoch of the next one
     bool has_due = false, has_next = false;
+    bool tracks = false;          ///< in the last cycle
     double clear_at = 0.0;        ///< end of the last fault that has begun
     bool waiting = false;         ///< has not flown since
     std::size_t unrecovered = 0;  ///< the first record that it has not recovered from, if it is concerned
@@ -59,6 +61,7 @@ class FaultWatch : public RunObserver {
 
   bool concerns(const Record& record, std::size_t uav) const { return record.uav == uav || record.uav == uavs_.size(); }
   void watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const;
+  void begin(Record& record);
   void recover(std::size_t uav, double epoch);
   bool isNoticeable(const Record& record) const;
 

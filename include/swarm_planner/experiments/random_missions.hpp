@@ -9,8 +9,9 @@
 
 namespace swarm_planner {
 
-/// One mission after the other: each UAV gets a random goal, and the next one once it is there or has tried for long
-/// enough. What moves through the field comes again from where it began when it has left it as far on the other side.
+/// One mission after the other: each UAV gets a random goal, out of the way of obstacles, and the next one once it is
+/// there or has tried for long enough. What moves through the field comes again from where it began when it has left it
+/// as far on the other side.
 class RandomMissions : public RunDirector {
  public:
   /// `field`: where goals are. `mission` and `planner` must outlive this.
@@ -37,12 +38,12 @@ class RandomMissions : public RunDirector {
   Workspace field_;
   IterativePlanner& planner_;
   RandomStream random_;
-  double speed_;      ///< of the targets [m/s]
-  double apart_;      ///< of two goals [m]
-  double clearance_;  ///< of a goal from what stands [m]
-  std::vector<Superellipsoid> standing_;
-  std::vector<double> periods_;  ///< after which each obstacle comes again [s]; infinite for those that stand
-  std::vector<Leg> legs_;        ///< one per UAV
+  double speed_;                           ///< of the targets [m/s]
+  double apart_;                           ///< of two goals [m]
+  double clearance_;                       ///< of a goal from obstacles, also on their way [m]
+  std::vector<Superellipsoid> obstacles_;  ///< at their starts
+  std::vector<double> periods_;            ///< after which each obstacle comes again [s]; infinite for those that stand
+  std::vector<Leg> legs_;                  ///< one per UAV
 };
 
 }  // namespace swarm_planner
