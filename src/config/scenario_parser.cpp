@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <map>
 
+#include "fault_reader.hpp"
 #include "parameter_table.hpp"
 #include "ros_names.hpp"
 #include "spelling.hpp"
@@ -147,7 +148,7 @@ void readObstacles(const YamlNode& node, std::vector<ScenarioObstacle>& obstacle
 }
 
 Scenario readScenario(const YamlNode& node) {
-  const YamlMap root(node, {"name", "frame_id", "end", "uavs", "obstacles", "map", "workspace", "overrides"});
+  const YamlMap root(node, {"name", "frame_id", "end", "uavs", "obstacles", "map", "workspace", "overrides", "faults"});
   Scenario scenario;
   root.read("name", scenario.name);
   if (root.read("frame_id", scenario.frame_id) && !isFrameName(scenario.frame_id)) {
@@ -159,6 +160,7 @@ Scenario readScenario(const YamlNode& node) {
   if (const YamlNode* map = root.find("map")) readMap(*map);
   if (const YamlNode* workspace = root.find("workspace")) readWorkspace(*workspace, scenario.workspace);
   if (const YamlNode* overrides = root.find("overrides")) readOverrides(*overrides, scenario.overrides);
+  if (const YamlNode* faults = root.find("faults")) readFaultInjections(*faults, scenario.uavs, scenario.faults);
   return scenario;
 }
 

@@ -59,6 +59,16 @@ std::string obstacleText(const ScenarioObstacle& obstacle) {
   return text + "}\n";
 }
 
+std::string faultText(const FaultInjection& fault) {
+  const FaultKindInfo& info = faultKindInfo(fault.kind);
+  std::string text = std::string("  - {kind: ") + info.name;
+  if (info.of_uav) text += ", uav: " + scalarText(fault.uav);
+  text += ", at: " + formatNumber(fault.at);
+  if (info.lasts) text += ", duration: " + formatNumber(fault.duration);
+  if (info.magnitude != nullptr) text += ", magnitude: " + formatNumber(fault.magnitude);
+  return text + "}\n";
+}
+
 std::string overridesText(const std::map<std::string, double>& overrides) {
   std::string text;
   for (const auto& [name, value] : overrides) text += "  " + name + ": " + formatNumber(value) + "\n";
@@ -78,6 +88,8 @@ std::string toYaml(const Scenario& scenario) {
             ", max: " + vectorText(scenario.workspace->max) + "}\n";
   }
   if (!scenario.overrides.empty()) text += "overrides:\n" + overridesText(scenario.overrides);
+  if (!scenario.faults.empty()) text += "faults:\n";
+  for (const FaultInjection& fault : scenario.faults) text += faultText(fault);
   return text;
 }
 

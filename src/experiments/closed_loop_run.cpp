@@ -19,6 +19,12 @@ MeanMax meanMax(const std::vector<double>& samples) {
   return {distribution.mean, distribution.max};
 }
 
+/// Room for `count` samples in memory that is in use from now on: that of a long run does not grow under way.
+void setAside(std::vector<double>& samples, std::size_t count) {
+  samples.assign(count, 0.0);
+  samples.clear();
+}
+
 }  // namespace
 
 ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed)
@@ -30,7 +36,8 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
       track_clock_(mission.parameters.simulation.track_rate, mission.parameters.time.cycle_period,
                    mission.parameters.simulation.latency),
       track_link_(mission.parameters.simulation, streamSeed(seed, RandomUse::kTrackLink)),
-      monitor_(mission) {
+      monitor_(mission),
+      faults_(mission, seed) {
   const Scenario& scenario = mission.scenario;
   const SimulationParameters& simulation = mission.parameters.simulation;
   for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
@@ -48,6 +55,13 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   result_.simulation = simulation;
   result_.left_out = leftOut(mission.parameters.limits);
   result_.kkt_nonzeros = kktNonzeros(mission);
+  faults_.scheduleScenario(0.0);
+  if (!scenario.end.duration) return;
+  const auto cycles = static_cast<std::size_t>(*scenario.end.duration / mission.parameters.time.cycle_period) + 2;
+  setAside(cycle_ms_, cycles);
+  for (std::vector<double>* samples : {&uav_ms_, &sqp_iterations_, &qp_iterations_}) {
+    setAside(*samples, cycles * vehicles_.size());
+  }
 }
 
 RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
@@ -78,6 +92,7 @@ RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
 }
 
 void ClosedLoopRun::moveTo(double t) {
+  faults_.advanceTo(t);
   const bool standing = t <= -mission_.parameters.time.cycle_period;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     if (standing) {
@@ -85,10 +100,17 @@ void ClosedLoopRun::moveTo(double t) {
     } else {
       receiveSetpoints(i, t);
       vehicles_[i].advanceTo(t);
+      faults_.disturb(i, vehicles_[i]);
     }
   }
-  for (std::size_t i = 0; i < obstacles_.size(); ++i) obstacles_[i] = obstacles_at_start_[i].movedBy(t);
+  for (std::size_t i = 0; i < obstacles_.size(); ++i) {
+    obstacles_[i] = obstacles_at_start_[i].movedBy(obstacleTime(i, t));
+  }
   time_ = t;
+}
+
+double ClosedLoopRun::obstacleTime(std::size_t index, double t) const {
+  return director_ != nullptr ? director_->obstacleTime(index, t) : t;
 }
 
 void ClosedLoopRun::measureBefore(double t) {
@@ -98,16 +120,31 @@ void ClosedLoopRun::measureBefore(double t) {
     // An instant that only rounding sets apart from the present one is the present one.
     if (next > time_ + kSameInstant) moveTo(next);
     if (odometry_clock_.next() <= next) {
-      for (std::size_t i = 0; i < vehicles_.size(); ++i) odometry_links_[i].send(next, vehicles_[i].measure());
+      sendOdometry(next);
       odometry_clock_.advance();
     }
     if (track_clock_.next() <= next) {
-      std::vector<TrackedObstacle> tracks(obstacles_.size());
-      for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i] = {obstacles_[i], time_};
-      track_link_.send(next, std::move(tracks));
+      if (faults_.tracksArrive()) sendTracks(next);
       track_clock_.advance();
     }
   }
+}
+
+void ClosedLoopRun::sendOdometry(double now) {
+  for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    UavMeasurement measurement = vehicles_[i].measure();
+    QuadState state = vehicles_[i].state();
+    if (faults_.spoilOdometry(i, measurement, state)) odometry_links_[i].send(now, measurement);
+  }
+}
+
+void ClosedLoopRun::sendTracks(double now) {
+  std::vector<TrackedObstacle> tracks;
+  tracks.reserve(obstacles_.size());
+  for (const Superellipsoid& obstacle : obstacles_) {
+    if (faults_.trackIsSeen()) tracks.push_back({obstacle, time_});
+  }
+  track_link_.send(now, std::move(tracks));
 }
 
 void ClosedLoopRun::receiveMeasurements(double now) {
@@ -115,14 +152,35 @@ void ClosedLoopRun::receiveMeasurements(double now) {
     odometry_links_[i].deliver(
         now, [this, i](double, const UavMeasurement& measurement) { snapshot_.uavs[i] = measurement; });
   }
-  track_link_.deliver(now,
-                      [this](double, const std::vector<TrackedObstacle>& tracks) { snapshot_.obstacles = tracks; });
+  track_link_.deliver(now, [this](double, const std::vector<TrackedObstacle>& tracks) {
+    for (const TrackedObstacle& track : tracks) receiveTrack(track);
+  });
+}
+
+/// Of each obstacle the newest: a message need not hold all of them.
+void ClosedLoopRun::receiveTrack(const TrackedObstacle& track) {
+  std::vector<TrackedObstacle>& known = snapshot_.obstacles;
+  const auto same = std::find_if(known.begin(), known.end(),
+                                 [&track](const TrackedObstacle& x) { return x.shape.id() == track.shape.id(); });
+  if (same != known.end()) {
+    *same = track;
+  } else {
+    known.push_back(track);
+  }
 }
 
 void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObserver*>& observers) {
   moveTo(now);
   measureBefore(now + kSameInstant);
   receiveMeasurements(now);
+  if (!faults_.plannerLives()) {
+    report_ = nullptr;
+    restart_due_ = true;
+    return;
+  }
+  if (restart_due_) planner_.restart();
+  if (director_ != nullptr) director_->beforeCycle(now, vehicles_, restart_due_);
+  restart_due_ = false;
   snapshot_.now = now;
   report_ = &planner_.plan(snapshot_, epoch);
   record(*report_);
@@ -130,6 +188,7 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
 }
 
 void ClosedLoopRun::sendSetpoints(double now) {
+  if (report_ == nullptr) return;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
     if (!report_->uavs[i].planned) continue;
     const CommittedMotion& motion = planner_.committed(i);
@@ -142,6 +201,7 @@ void ClosedLoopRun::sendSetpoints(double now) {
 void ClosedLoopRun::receiveSetpoints(std::size_t uav, double now) {
   setpoint_links_[uav].deliver(now, [this, uav](double arrival, const SetpointTrajectory& setpoints) {
     vehicles_[uav].advanceTo(arrival);
+    if (!faults_.setpointsReach(uav)) return;
     if (!vehicles_[uav].receive(setpoints)) ++result_.fallbacks["the vehicle refused the trajectory"];
   });
 }

@@ -19,6 +19,7 @@ namespace {
 constexpr int kMostUavs = 100000;
 constexpr int kMostObstacles = 10000;
 constexpr int kMostThreads = 256;
+constexpr double kMostHours = 1000.0;
 constexpr std::uint64_t kMostScenarios = 1000000;
 constexpr std::uint64_t kLargestSeed = 2147483647;  // that of the parameter "seed", so that a run can be repeated there
 
@@ -78,7 +79,8 @@ const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCo
                                                             {"monte_carlo", ExperimentCommand::kMonteCarlo},
                                                             {"scaling", ExperimentCommand::kScaling},
                                                             {"circle_swap", ExperimentCommand::kCircleSwap},
-                                                            {"moving_obstacles", ExperimentCommand::kMovingObstacles}};
+                                                            {"moving_obstacles", ExperimentCommand::kMovingObstacles},
+                                                            {"rehearse", ExperimentCommand::kRehearse}};
 
 /// Options that set parameters of the simulation, whose ranges hold.
 const std::map<std::string, std::vector<const char*>> kDisturbances = {
@@ -216,7 +218,7 @@ void Parser::readStudyOption(const std::string& option) {
   static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
   if (option == "--uavs") {
     requireCommand(option, {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap,
-                            ExperimentCommand::kMovingObstacles});
+                            ExperimentCommand::kMovingObstacles, ExperimentCommand::kRehearse});
     for (const std::string& count : values(option)) {
       options_.uavs.push_back(static_cast<int>(wholeNumber(option, count, 1, kMostUavs)));
     }
@@ -226,6 +228,10 @@ void Parser::readStudyOption(const std::string& option) {
   } else if (option == "--radius") {
     requireCommand(option, {ExperimentCommand::kCircleSwap});
     options_.radius = positiveNumber(option, value(option));
+  } else if (option == "--hours") {
+    requireCommand(option, {ExperimentCommand::kRehearse});
+    options_.hours = positiveNumber(option, value(option));
+    if (options_.hours > kMostHours) throw OptionError(option + ": more than a thousand hours");
   } else if (option == "--obstacles") {
     requireCommand(option, {ExperimentCommand::kMovingObstacles});
     options_.obstacles = static_cast<int>(wholeNumber(option, value(option), 1, kMostObstacles));
@@ -277,6 +283,7 @@ commands:
   circle_swap [--uavs 10] [--radius 10]   UAVs on a circle [m] change places with their opposites
   moving_obstacles [--uavs 6] [--obstacles 8]
                                           UAVs cross a field among random moving obstacles
+  rehearse [--hours 1] [--uavs 6]         one mission after the other, with random faults of every kind
 
 options:
   --json FILE          write the results as JSON

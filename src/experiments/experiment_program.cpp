@@ -6,6 +6,7 @@
 
 #include "swarm_planner/experiments/atomic_file.hpp"
 #include "swarm_planner/experiments/csv_recorder.hpp"
+#include "swarm_planner/experiments/experiment_flight.hpp"
 #include "swarm_planner/experiments/experiment_runs.hpp"
 #include "swarm_planner/experiments/json_report.hpp"
 #include "swarm_planner/experiments/progress_bar.hpp"
@@ -23,8 +24,7 @@ std::vector<RunResult> flyAll(const std::vector<ExperimentRun>& runs, CsvRecorde
     const ExperimentRun& run = runs[i];
     progress.beginRun(i, run.mission.scenario);
     if (recorder != nullptr) recorder->beginRun(i, run.mission.scenario);
-    IterativePlanner planner(run.mission);
-    results.push_back(ClosedLoopRun(run.mission, planner, run.seed).fly(observers));
+    results.push_back(flyExperimentRun(run, observers));
   }
   return results;
 }

@@ -2,6 +2,7 @@
 #include "swarm_planner/experiments/experiment_runs.hpp"
 
 #include "swarm_planner/config/paper_scenarios.hpp"
+#include "swarm_planner/config/rehearsal.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -26,7 +27,7 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
       const Mission mission = loadMission(file, given);
       std::vector<std::uint64_t> seeds = options.seeds;
       if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
-      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed});
+      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed, {}});
     } catch (const ConfigError& error) {
       faults += faults.empty() ? "" : "\n";
       faults += error.what();
@@ -38,10 +39,17 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
 
 /// Scenarios that a generator makes; the command's name stands for the file in faults.
 ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
-  return {makeMission(scenario, given, scenario.name), seed};
+  return {makeMission(scenario, given, scenario.name), seed, {}};
 }
 
 }  // namespace
+
+ExperimentRun rehearsalRun(int uavs, double duration, std::uint64_t seed, ParameterMap given) {
+  given.emplace("track_timeout", kRehearsalTrackTimeout);
+  ExperimentRun run = generatedRun(rehearsal(uavs, duration, seed), seed, given);
+  run.goals = rehearsalField(uavs);
+  return run;
+}
 
 std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) {
   const ParameterMap given = givenParameters(options);
@@ -67,6 +75,12 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
     case ExperimentCommand::kMovingObstacles:
       for (const std::uint64_t seed : options.seeds) {
         runs.push_back(generatedRun(movingObstacles(options.uavs.front(), options.obstacles, seed), seed, given));
+      }
+      break;
+    case ExperimentCommand::kRehearse:
+      for (const std::uint64_t seed : options.seeds) {
+        constexpr double kHour = 3600.0;  // [s]
+        runs.push_back(rehearsalRun(options.uavs.front(), kHour * options.hours, seed, given));
       }
       break;
     case ExperimentCommand::kHelp:

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "swarm_planner/experiments/collision_partner.hpp"
+#include "swarm_planner/experiments/fault_report.hpp"
 #include "swarm_planner/experiments/json_object.hpp"
 
 namespace swarm_planner {
@@ -78,6 +79,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .add("cost", flown.cost)
       .add("disturbances", disturbances(run.simulation))
       .add("without", run.left_out);
+  addFaults(run, object);
   return object;
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "swarm_planner/experiments/collision_partner.hpp"
+#include "swarm_planner/experiments/fault_report.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -101,7 +102,7 @@ std::string align(const std::vector<Row>& rows) {
 std::string describe(const Collision& collision, const Scenario& scenario) {
   const std::string& uav = scenario.uavs[collision.uav].name;
   return scenario.name + ": " + uav + " too close to " + collisionPartner(collision, scenario) + " at " +
-         fixed(collision.time, 2) + " s\n";
+         fixed(collision.time, 2) + " s" + faultsBefore(collision, scenario) + "\n";
 }
 
 std::string remarks(const Scenario& scenario, const RunResult& run) {
@@ -124,7 +125,7 @@ std::string remarks(const Scenario& scenario, const RunResult& run) {
   for (const auto& [reason, count] : run.fallbacks) {
     text += scenario.name + ": fallback " + std::to_string(count) + " times: " + reason + "\n";
   }
-  return text;
+  return text + faultTable(scenario, run);
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ constexpr double kPublicationPeriod = 0.01;
 ObstacleSimNode::ObstacleSimNode(const Mission& mission)
     : frame_id_(mission.scenario.frame_id),
       link_(mission.parameters.simulation,
-            streamSeed(static_cast<std::uint64_t>(mission.parameters.simulation.seed), RandomUse::kTrackLink)) {
+            streamSeed(static_cast<std::uint64_t>(mission.parameters.simulation.seed), RandomUse::kTrackLink)),
+      faults_(mission, static_cast<std::uint64_t>(mission.parameters.simulation.seed)),
+      fault_service_(mission, faults_, concernsTracks, [] { return toSeconds(ros::Time::now()); }) {
   for (const ScenarioObstacle& obstacle : mission.scenario.obstacles) obstacles_.push_back(makeObstacle(obstacle));
   publisher_ = node_.advertise<ObstacleTrackArray>(kObstacleTracksTopic, kObstacleTracksQueueSize);
   status_subscriber_ = node_.subscribe(kPlannerStatusTopic, kStatusQueueSize, &ObstacleSimNode::receiveStatus, this,
@@ -36,8 +38,10 @@ ObstacleSimNode::ObstacleSimNode(const Mission& mission)
 }
 
 void ObstacleSimNode::receiveStatus(const PlannerStatus& status) {
+  const std::optional<double> before = time_zero_;
   time_zero_.reset();
   if (status.started) time_zero_ = toSeconds(status.time_zero);
+  if (time_zero_ && time_zero_ != before) faults_.scheduleScenario(*time_zero_);
 }
 
 void ObstacleSimNode::measure() {
@@ -46,7 +50,11 @@ void ObstacleSimNode::measure() {
   ObstacleTrackArray message;
   message.header.frame_id = frame_id_;
   message.header.stamp = now;
-  for (const Superellipsoid& obstacle : obstacles_) message.tracks.push_back(toMessage(obstacle.movedBy(run_time)));
+  faults_.advanceTo(toSeconds(now));
+  if (!faults_.tracksArrive()) return;
+  for (const Superellipsoid& obstacle : obstacles_) {
+    if (faults_.trackIsSeen()) message.tracks.push_back(toMessage(obstacle.movedBy(run_time)));
+  }
   link_.send(toSeconds(now), std::move(message));
   publish();
 }

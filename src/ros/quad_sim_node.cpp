@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/quad_sim_node.hpp"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/transport_hints.h>
@@ -32,7 +31,12 @@ constexpr double kWarningPeriod = 5.0;
 }  // namespace
 
 QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
-    : mission_(mission), options_(options), clock_(options.speed), samples_(mission.scenario.uavs.size()) {
+    : mission_(mission),
+      options_(options),
+      clock_(options.speed),
+      faults_(mission, static_cast<std::uint64_t>(mission.parameters.simulation.seed)),
+      samples_(mission.scenario.uavs.size()),
+      fault_service_(mission_, faults_, concernsVehicles, [this] { return time_; }) {
   const auto seed = static_cast<std::uint64_t>(mission_.parameters.simulation.seed);
   const SimulationParameters& simulation = mission_.parameters.simulation;
   for (const ScenarioUav& uav : mission_.scenario.uavs) {
@@ -92,6 +96,7 @@ void QuadSimNode::receiveTrajectory(std::size_t uav, const trajectory_msgs::Mult
 void QuadSimNode::deliverTrajectories(std::size_t uav) {
   trajectory_links_[uav].deliver(time_, [this, uav](double arrival, const SetpointTrajectory& trajectory) {
     quads_[uav].advanceTo(arrival);
+    if (!faults_.setpointsReach(uav)) return;
     if (quads_[uav].receive(trajectory)) return;
     ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: it cannot be flown",
                       mission_.scenario.uavs[uav].name.c_str());
@@ -122,6 +127,7 @@ void QuadSimNode::receiveStatus(const PlannerStatus& status) {
   if (time_zero_ != time_zero) {
     time_zero_ = time_zero;
     monitor_.emplace(mission_);
+    faults_.scheduleScenario(time_zero);
     cycles_ = 0;
     cycle_time_sum_ = 0.0;
     cycle_time_max_ = 0.0;
@@ -150,6 +156,7 @@ void QuadSimNode::restartClock(double now) {
   steps_ = 0;
   time_ = now;
   next_odometry_ = now;
+  faults_.clear();
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
     trajectory_links_[uav].clear();
     odometry_links_[uav].clear();
@@ -160,9 +167,11 @@ void QuadSimNode::restartClock(double now) {
 void QuadSimNode::advance() {
   ++steps_;
   time_ = origin_ + static_cast<double>(steps_) * kStep;
+  faults_.advanceTo(time_);
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
     deliverTrajectories(uav);
     quads_[uav].advanceTo(time_);
+    faults_.disturb(uav, quads_[uav]);
   }
   clock_.publish(time_);
   if (time_ >= next_odometry_ - 0.5 * kStep) {
@@ -174,21 +183,26 @@ void QuadSimNode::advance() {
 }
 
 void QuadSimNode::measure() {
-  std::vector<geometry_msgs::TransformStamped> transforms(quads_.size());
+  transforms_.clear();
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    UavMeasurement measurement = quads_[uav].measure();
+    QuadState state = quads_[uav].state();
+    if (!faults_.spoilOdometry(uav, measurement, state)) continue;
     nav_msgs::Odometry message;
-    message.header.stamp = toRosTime(time_);
+    message.header.stamp = toRosTime(measurement.stamp);
     message.header.frame_id = mission_.scenario.frame_id;
     message.child_frame_id = nameForUav(kBaseLinkFrame, mission_.scenario.uavs[uav].name);
-    setPoseAndTwist(quads_[uav].measure(), quads_[uav].state(), message);
+    setPoseAndTwist(measurement, state, message);
     odometry_links_[uav].send(time_, message);
 
-    transforms[uav].header = message.header;
-    transforms[uav].child_frame_id = message.child_frame_id;
-    transforms[uav].transform.translation = toVector3Message(toVector3(message.pose.pose.position));
-    transforms[uav].transform.rotation = message.pose.pose.orientation;
+    if (!measurement.p.allFinite()) continue;  // tf2 does not take it
+    transforms_.emplace_back();
+    transforms_.back().header = message.header;
+    transforms_.back().child_frame_id = message.child_frame_id;
+    transforms_.back().transform.translation = toVector3Message(toVector3(message.pose.pose.position));
+    transforms_.back().transform.rotation = message.pose.pose.orientation;
   }
-  broadcaster_.sendTransform(transforms);
+  broadcaster_.sendTransform(transforms_);
 }
 
 void QuadSimNode::publishOdometry(std::size_t uav) {

@@ -58,12 +58,17 @@ void QuadSimulator::setClock(double t) {
 
 void QuadSimulator::resetClock(double t) {
   setClock(t);
-  setpoints_.hold(state_.p);
+  holdPosition();
 }
 
 void QuadSimulator::setDisturbance(const Vector3& acceleration) {
   if (!acceleration.allFinite()) throw std::invalid_argument("QuadSimulator: the disturbance is not finite");
   disturbance_ = acceleration;
+}
+
+void QuadSimulator::push(const Vector3& dv) {
+  if (!dv.allFinite()) throw std::invalid_argument("QuadSimulator: the push is not finite");
+  state_.v += dv;
 }
 
 Vector3 QuadSimulator::acceleration() const {

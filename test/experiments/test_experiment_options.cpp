@@ -73,6 +73,15 @@ TEST(ExperimentOptions, FliesSixUavsAmongEightMovingObstacles) {
   EXPECT_EQ(more.seeds.size(), 2u);
 }
 
+TEST(ExperimentOptions, RehearsesAnHourWithSixUavs) {
+  const ExperimentOptions options = parseExperimentOptions({"rehearse"});
+  EXPECT_EQ(options.command, ExperimentCommand::kRehearse);
+  EXPECT_EQ(options.hours, 1.0);
+  EXPECT_EQ(options.uavs, std::vector<int>{6});
+  EXPECT_EQ(options.seeds, std::vector<std::uint64_t>{0});
+  EXPECT_EQ(parseExperimentOptions({"rehearse", "--hours", "0.25", "--uavs", "9"}).hours, 0.25);
+}
+
 struct Mistake {
   Arguments arguments;
   std::string expected;  ///< part of the message
@@ -113,6 +122,10 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"moving_obstacles", "--scenarios", "5"}, "does not go with this command"},
       {{"moving_obstacles", "--uavs", "6", "7"}, "one number"},
       {{"fly", "a.yaml", "--uavs", "6"}, "does not go with this command"},
+      {{"rehearse", "--hours", "0"}, "--hours: expected a number > 0"},
+      {{"rehearse", "--hours", "1e6"}, "more than a thousand hours"},
+      {{"rehearse", "--uavs", "6", "7"}, "one number"},
+      {{"circle_swap", "--hours", "1"}, "does not go with this command"},
       {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},
       {{"fly", "a.yaml", "--latency", "-0.1"}, "--latency: expected a number in [0, 10] [s], not \"-0.1\""},
       {{"fly", "a.yaml", "--latency", "100"}, "--latency: expected a number in [0, 10] [s], not \"100\""},

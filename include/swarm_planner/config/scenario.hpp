@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "swarm_planner/config/fault_injection.hpp"
 #include "swarm_planner/config/faults.hpp"
 #include "swarm_planner/config/types.hpp"
 
@@ -60,6 +61,8 @@ struct Scenario {
   std::optional<Workspace> workspace;
   /// Planner and vehicle parameters that this scenario sets, by their flat names.
   std::map<std::string, double> overrides;
+  /// What goes wrong in simulation, in any order.
+  std::vector<FaultInjection> faults;
 };
 
 /// Parses a scenario from a YAML file. Every fault (unknown, missing or repeated key, wrong type,

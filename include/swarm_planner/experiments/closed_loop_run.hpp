@@ -6,6 +6,7 @@
 
 #include "swarm_planner/experiments/cycle_planner.hpp"
 #include "swarm_planner/experiments/run_result.hpp"
+#include "swarm_planner/simulation/fault_injector.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/simulation/quad_simulator.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
@@ -24,6 +25,16 @@ class RunObserver {
   virtual void onCycle(double epoch, const CycleReport& report) = 0;
 };
 
+/// Does more in a run than its scenario says: gives new goals, lets obstacles come again. Times as RunObserver's.
+class RunDirector {
+ public:
+  virtual ~RunDirector() = default;
+  /// Before the planner plans at `now`; `restarted`: it is a new one, that has not planned yet.
+  virtual void beforeCycle(double now, const std::vector<QuadSimulator>& vehicles, bool restarted) = 0;
+  /// For how long obstacle `index` has moved since it was at its start, at time `t` [s].
+  virtual double obstacleTime(std::size_t index, double t) const = 0;
+};
+
 /// One run: planner and simulated vehicles in closed loop, without ROS, timed as the ROS nodes are.
 ///
 /// Sensors measure at the instants of SensorClock; every message goes over a MessageLink of its own kind and UAV. Every
@@ -32,6 +43,8 @@ class RunObserver {
 /// Plans are sampled at kSetpointPeriod and sent to the vehicles, setpoint_repeats times more before the next cycle.
 /// The first epoch is t = 0: obstacles are at their start and targets begin to move then. The vehicles hover from t =
 /// -cycle_period on, where gusts set in; before that they stand at their start while the first messages are under way.
+///
+/// The scenario's faults are injected. While the planner is dead nothing is planned or sent; then it is restarted.
 class ClosedLoopRun {
  public:
   /// Distances, collisions and so on are evaluated this often [s].
@@ -42,13 +55,20 @@ class ClosedLoopRun {
   /// `mission` and `planner` must outlive the run. `seed` is that of all random disturbances.
   ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std::uint64_t seed);
 
+  /// `director` must outlive the run; nobody directs without.
+  void setDirector(RunDirector& director) { director_ = &director; }
+
   /// Flies until the scenario's end condition holds. Call it once. `observers` are told in the order given.
   RunResult fly(const std::vector<RunObserver*>& observers = {});
 
  private:
   void moveTo(double t);
   void measureBefore(double t);
+  void sendOdometry(double now);
+  void sendTracks(double now);
   void receiveMeasurements(double now);
+  void receiveTrack(const TrackedObstacle& track);
+  double obstacleTime(std::size_t index, double t) const;
   void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
   /// To every vehicle that the last cycle left a motion to fly.
   void sendSetpoints(double now);
@@ -69,7 +89,10 @@ class ClosedLoopRun {
   MessageLink<std::vector<TrackedObstacle>> track_link_;
   RunMonitor monitor_;
   Snapshot snapshot_;
-  const CycleReport* report_ = nullptr;  ///< of the last cycle
+  const CycleReport* report_ = nullptr;  ///< of the last cycle; null while the planner is dead
+  bool restart_due_ = false;             ///< the planner has died
+  FaultInjector faults_;
+  RunDirector* director_ = nullptr;
   SetpointTrajectory setpoints_;
   std::vector<UavSample> samples_;
 

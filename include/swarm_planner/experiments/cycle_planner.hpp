@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <vector>
+
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
@@ -14,17 +16,27 @@ class CyclePlanner {
   virtual const CycleReport& plan(const Snapshot& snapshot, double epoch) = 0;
   /// What a UAV is to fly, its stop included; meaningful where the report says `planned`.
   virtual const CommittedMotion& committed(std::size_t uav) const = 0;
+  /// Goes on as a new process would that knows the mission alone. A planner without memory has nothing to forget.
+  virtual void restart() {}
 };
 
 /// Problem 2: one UAV after the other.
 class IterativePlanner : public CyclePlanner {
  public:
-  explicit IterativePlanner(const Mission& mission) : planner_(mission) {}
+  /// `mission` must outlive the planner.
+  explicit IterativePlanner(const Mission& mission) : mission_(mission), planner_(mission) {}
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override { return planner_.plan(snapshot, epoch); }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
+  void restart() override { planner_ = SwarmPlanner(mission_); }
+
+  /// See SwarmPlanner::setReference().
+  void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
+    planner_.setReference(uav, path, start, speed);
+  }
 
  private:
+  const Mission& mission_;
   SwarmPlanner planner_;
 };
 

@@ -17,7 +17,7 @@ class OptionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles };
+enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles, kRehearse };
 
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
@@ -26,6 +26,7 @@ struct ExperimentOptions {
   std::vector<int> uavs;                    ///< the others; scaling: several
   double radius = 10.0;                     ///< circle_swap [m]
   int obstacles = 8;                        ///< moving_obstacles
+  double hours = 1.0;                       ///< rehearse: simulated time
 
   /// A run for each: --seeds A:B (both ends included), --seed S, or 0; monte_carlo: as many from S on as scenarios.
   /// Empty only for fly without either: then the parameter "seed" holds.

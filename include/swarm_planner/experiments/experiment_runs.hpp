@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "swarm_planner/experiments/experiment_options.hpp"
@@ -13,7 +14,12 @@ namespace swarm_planner {
 struct ExperimentRun {
   Mission mission;
   std::uint64_t seed = 0;
+  std::optional<Workspace> goals;  ///< a rehearsal: where UAVs get random goals, one after the other
 };
+
+/// A rehearsal(uavs, duration, seed). Tracks are remembered for kRehearsalTrackTimeout unless `given` sets
+/// track_timeout.
+ExperimentRun rehearsalRun(int uavs, double duration, std::uint64_t seed, ParameterMap given = {});
 
 /// The runs that a command asks for, in the order in which they are reported. Throws ConfigError with the faults of all
 /// scenario and parameter files together.

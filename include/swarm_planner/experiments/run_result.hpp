@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/experiments/fault_summary.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
@@ -30,6 +32,8 @@ struct RunResult {
   std::map<std::string, std::size_t> refusals;   ///< the check's reason in words -> plans
   std::map<std::string, std::size_t> fallbacks;  ///< reason in words -> UAVs and cycles
   std::size_t deadline_misses = 0;               ///< cycles that took longer than cycle_period
+  FaultSummary faults;                           ///< of those that were injected
+  std::optional<RehearsalSummary> rehearsal;     ///< of a rehearsal alone
 };
 
 }  // namespace swarm_planner

@@ -13,6 +13,7 @@ constexpr char kPlansTopic[] = "plans";                        // ~
 constexpr char kStatusTopic[] = "status";                      // ~
 constexpr char kMarkersTopic[] = "markers";                    // ~
 constexpr char kSetReferenceService[] = "set_reference";       // ~
+constexpr char kInjectFaultService[] = "inject_fault";         // ~
 constexpr char kPlannerStatusTopic[] = "planner_node/status";  // kStatusTopic as other nodes see it
 constexpr char kClockTopic[] = "/clock";                       // absolute by ROS convention
 

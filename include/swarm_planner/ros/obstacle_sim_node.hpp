@@ -13,6 +13,7 @@
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
+#include "swarm_planner/ros/fault_service.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 
@@ -20,7 +21,8 @@ namespace swarm_planner {
 
 /// Publishes the scenario's obstacles as perfect tracks, over a link that delays and loses them as the parameters of
 /// the simulation say. They move from the run's t = 0 on, which the planner's status tells; until then they wait where
-/// they are at t = 0, announced with the velocity that they will have.
+/// they are at t = 0, announced with the velocity that they will have. Faults of the scenario, and those that
+/// ~inject_fault asks for, are injected.
 class ObstacleSimNode {
  public:
   explicit ObstacleSimNode(const Mission& mission);
@@ -34,10 +36,12 @@ class ObstacleSimNode {
   std::optional<double> time_zero_;        ///< [s]
   std::string frame_id_;
   MessageLink<ObstacleTrackArray> link_;
+  FaultInjector faults_;
   ros::NodeHandle node_;
   ros::Publisher publisher_;
   ros::Subscriber status_subscriber_;
   ros::Timer measurement_timer_, publication_timer_;
+  FaultService fault_service_;
 };
 
 }  // namespace swarm_planner

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -18,6 +19,7 @@
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
+#include "swarm_planner/ros/fault_service.hpp"
 #include "swarm_planner/ros/quad_sim_options.hpp"
 #include "swarm_planner/ros/run_report.hpp"
 #include "swarm_planner/ros/sim_clock.hpp"
@@ -29,7 +31,8 @@ namespace swarm_planner {
 
 /// Flies every UAV of the scenario on the trajectories that it receives, publishes odometry and tf, makes /clock at
 /// speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to the scenario's end. Trajectories
-/// and odometry go over links that delay and lose them as the parameters of the simulation say.
+/// and odometry go over links that delay and lose them as the parameters of the simulation say. Faults of the scenario,
+/// and those that ~inject_fault asks for, are injected.
 class QuadSimNode {
  public:
   QuadSimNode(const Mission& mission, const QuadSimOptions& options);
@@ -59,6 +62,7 @@ class QuadSimNode {
   std::vector<QuadSimulator> quads_;
   std::vector<MessageLink<SetpointTrajectory>> trajectory_links_;
   std::vector<MessageLink<nav_msgs::Odometry>> odometry_links_;
+  FaultInjector faults_;
   std::vector<TrackedObstacle> obstacles_;  ///< the truth: as last received, or as in the scenario
 
   double origin_ = 0.0;         ///< simulated time at which steps are counted from [s]
@@ -78,9 +82,11 @@ class QuadSimNode {
   ros::NodeHandle node_;
   std::vector<ros::Publisher> odometry_;
   tf2_ros::TransformBroadcaster broadcaster_;
+  std::vector<geometry_msgs::TransformStamped> transforms_;
   std::vector<ros::Subscriber> subscribers_;
   ros::Timer timer_;
   ros::WallTimer wall_timer_;
+  FaultService fault_service_;
 };
 
 }  // namespace swarm_planner

@@ -42,6 +42,12 @@ class QuadSimulator {
   /// is not finite.
   void setDisturbance(const Vector3& acceleration);
 
+  /// A kick: the velocity changes by `dv` [m/s] at once. Throws std::invalid_argument if it is not finite.
+  void push(const Vector3& dv);
+
+  /// Forgets every trajectory and holds the present position until a new one takes over.
+  void holdPosition() { setpoints_.hold(state_.p); }
+
   double time() const { return time_; }
   const QuadState& state() const { return state_; }
   /// Acceleration of the vehicle under the present rotor speeds [m/s^2].

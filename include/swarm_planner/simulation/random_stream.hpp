@@ -18,6 +18,9 @@ enum class RandomUse : std::uint64_t {
   kSetpointLink,
   kDrop,
   kJitter,
+  kFaultDirection,
+  kTrackFlicker,
+  kMissions,
 };
 
 /// Seed of the stream for `use` by UAV `index`, in a run whose seed is `seed`.

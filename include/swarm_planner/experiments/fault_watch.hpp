@@ -1,0 +1,79 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <vector>
+
+#include "swarm_planner/experiments/closed_loop_run.hpp"
+#include "swarm_planner/experiments/fault_summary.hpp"
+
+namespace swarm_planner {
+
+/// Watches what the planner makes of injected faults.
+///
+/// A fault is reported when its UAV's report bears a reason that tells of the vehicle, its odometry or its setpoints,
+/// while the fault lasts or within kReportTime after it. Noticeable, so that it has to be reported, is
+///   - odometry that is unusable for longer than odometry_timeout and two cycles,
+///   - odometry in whose place or time the fault makes a difference beyond what noise is taken for: two tracking
+///     margins, for two cycles,
+///   - a vehicle farther than two tracking margins from the motion that it should fly for kStrayTime: less cannot be
+///     told from wind and noise, as the planner averages over some cycles.
+/// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
+///
+/// A UAV flies again when a new plan for it begins and its state is TRACKING; the time counts from the end of the last
+/// of the faults that concerned it and overlapped. A UAV that was not tracking anyway when the fault began, because an
+/// obstacle is in its way, is not waited for.
+class FaultWatch : public RunObserver {
+ public:
+  static constexpr double kReportTime = 1.0;    ///< [s]
+  static constexpr double kStrayTime = 1.5;     ///< [s]
+  static constexpr double kRecoveryTime = 5.0;  ///< longer is listed among the misses [s]
+
+  /// All must outlive the watch. No heap allocation afterwards.
+  FaultWatch(const Mission& mission, const CyclePlanner& planner);
+
+  void onSample(double t, const std::vector<QuadSimulator>& vehicles, const std::vector<Superellipsoid>&) override;
+  void onCycle(double epoch, const CycleReport& report) override;
+
+  FaultSummary summary() const;
+
+ private:
+  struct Record {
+    FaultInjection fault;
+    std::size_t uav = 0;              ///< uavs_.size(): all
+    double end = 0.0;                 ///< [s]
+    Vector3 place = Vector3::Zero();  ///< of the vehicle when it began [m]
+    double moved = 0.0;               ///< farthest from there while it lasted [m]
+    double strayed_since = 0.0, strayed_for = 0.0;
+    bool strays = false;
+    double first_report = 0.0;
+    bool reported = false;
+    double recovery_time = 0.0;
+    std::size_t waiting = 0;  ///< UAVs that have not recovered yet
+  };
+  struct Uav {
+    CommittedMotion due, next;  ///< due: is flown until the epoch of the next one
+    bool has_due = false, has_next = false;
+    bool tracks = false;          ///< in the last cycle
+    double clear_at = 0.0;        ///< end of the last fault that has begun
+    bool waiting = false;         ///< has not flown since
+    std::size_t unrecovered = 0;  ///< the first record that it has not recovered from, if it is concerned
+  };
+
+  bool concerns(const Record& record, std::size_t uav) const { return record.uav == uav || record.uav == uavs_.size(); }
+  void watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const;
+  void begin(Record& record);
+  void recover(std::size_t uav, double epoch);
+  bool isNoticeable(const Record& record) const;
+
+  const Parameters& parameters_;
+  const CyclePlanner& planner_;
+  std::vector<Record> records_;  ///< by beginning
+  std::vector<Uav> uavs_;
+  std::size_t begun_ = 0;     ///< records that have begun
+  std::size_t finished_ = 0;  ///< so many of the first ones need no more watching
+};
+
+/// Whether a reason tells of a vehicle, its odometry or its setpoints, and not of planning alone.
+bool tellsOfFault(Reason reason);
+
+}  // namespace swarm_planner
