@@ -13,6 +13,7 @@
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
+#include "swarm_planner/ros/input_watch.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 
@@ -35,6 +36,7 @@ class ObstacleSimNode {
   std::string frame_id_;
   MessageLink<ObstacleTrackArray> link_;
   ros::NodeHandle node_;
+  InputWatch watch_;
   ros::Publisher publisher_;
   ros::Subscriber status_subscriber_;
   ros::Timer measurement_timer_, publication_timer_;
