@@ -3,6 +3,7 @@
 """Breaks for the user: a simulation that a bad trajectory, status or track throws off, so that what was rehearsed says
 nothing about the planner."""
 
+import functools
 import math
 import unittest
 
@@ -62,11 +63,6 @@ class BadInputSimTest(unittest.TestCase):
         for node in ('/quad_sim_node', '/obstacle_sim_node'):
             self.assertLess(self.console.longest(node), MOST_CONSOLE_TEXT)
 
-    def assert_counted(self, entry, key, publish):
-        def send():
-            publish()
-            rospy.sleep(0.1)
-        self.diagnostics.wait_for_count(entry, key, self.diagnostics.count(entry, key), send)
 
     def test_trajectories(self):
         def first(attribute, axis, value):
@@ -76,21 +72,23 @@ class BadInputSimTest(unittest.TestCase):
                 setattr(vector, axis, value)
             return change
 
-        for reason, change in (('not finite', first('p', 'x', math.nan)),
-                               ('absurdly large', first('p', 'x', 1e300)),
-                               ('absurdly large', first('v', 'y', 1e8)),
-                               ('malformed', lambda m: setattr(m, 'points', [])),
-                               ('malformed', lambda m: setattr(m.points[1], 'transforms', [])),
-                               ('out of order', lambda m: setattr(m.points[2], 'time_from_start', rospy.Duration(0))),
-                               ('from the future', lambda m: setattr(m.header, 'stamp', rospy.Time(4e9))),
-                               ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'odom')),
-                               ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'f' * 5000000)),
-                               ('too long', lambda m: setattr(m.header, 'frame_id', TEN_MEGABYTES))):
-            def publish():
-                message = trajectory()
-                change(message)
-                self.trajectories.publish(message)
-            self.assert_counted(QUAD_SIM, 'trajectory of uav1 dropped: ' + reason, publish)
+        def publish(change):
+            message = trajectory()
+            change(message)
+            self.trajectories.publish(message)
+
+        table = (('not finite', first('p', 'x', math.nan)),
+                 ('absurdly large', first('p', 'x', 1e300)),
+                 ('absurdly large', first('v', 'y', 1e8)),
+                 ('malformed', lambda m: setattr(m, 'points', [])),
+                 ('malformed', lambda m: setattr(m.points[1], 'transforms', [])),
+                 ('out of order', lambda m: setattr(m.points[2], 'time_from_start', rospy.Duration(0))),
+                 ('from the future', lambda m: setattr(m.header, 'stamp', rospy.Time(4e9))),
+                 ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'odom')),
+                 ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'f' * 5000000)),
+                 ('too long', lambda m: setattr(m.header, 'frame_id', TEN_MEGABYTES)))
+        self.diagnostics.wait_for_counts(QUAD_SIM, 'trajectory of uav1 dropped',
+                                         [(reason, functools.partial(publish, change)) for reason, change in table])
 
     def test_trajectory_without_a_defect_is_flown(self):
         def flown():
@@ -100,16 +98,18 @@ class BadInputSimTest(unittest.TestCase):
         wait_for(flown, 'the vehicle on its way up')
 
     def test_tracks_and_status(self):
-        for reason, raw in (('too long', track_array([(0, 0, 0)] * 5000, rospy.Time(1))),
-                            ('malformed', b'\0' * 12 + b'\3\0\0\0map\xff\xff\xff\x7f'),
-                            ('not finite', track_array([(math.nan, 0, 0)], rospy.Time(1)))):
-            self.assert_counted(QUAD_SIM, 'obstacle tracks dropped: ' + reason, lambda: self.tracks.publish(raw))
+        table = (('too long', track_array([(0, 0, 0)] * 10000, rospy.Time(1))),
+                 ('malformed', b'\0' * 12 + b'\3\0\0\0map\xff\xff\xff\x7f'),
+                 ('not finite', track_array([(math.nan, 0, 0)], rospy.Time(1))))
+        self.diagnostics.wait_for_counts(QUAD_SIM, 'obstacle tracks dropped',
+                                         [(reason, functools.partial(self.tracks.publish, raw)) for reason, raw in table])
         absurd = PlannerStatus(started=True, time_zero=rospy.Time(4e9))
         long_text = PlannerStatus()
         long_text.header.frame_id = TEN_MEGABYTES
         for entry in (QUAD_SIM, OBSTACLE_SIM):
-            self.assert_counted(entry, 'planner status dropped: absurdly large', lambda: self.status.publish(absurd))
-            self.assert_counted(entry, 'planner status dropped: too long', lambda: self.status.publish(long_text))
+            self.diagnostics.wait_for_counts(entry, 'planner status dropped',
+                                             [('absurdly large', lambda: self.status.publish(absurd)),
+                                              ('too long', lambda: self.status.publish(long_text))])
             accepted = self.diagnostics.count(entry, 'planner status accepted')
             self.diagnostics.wait_for_count(entry, 'planner status accepted', accepted)  # the planner's own
 
