@@ -23,6 +23,7 @@ build_packages=(
   librostest-dev
   libstd-msgs-dev
   libtf2-dev
+  libtf2-msgs-dev
   libtf2-ros-dev
   libtrajectory-msgs-dev
   libvisualization-msgs-dev
@@ -50,6 +51,7 @@ test_packages=(
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)
 tidy_packages=(clang-tidy)
+fuzz_packages=(clang libclang-rt-14-dev)
 
 # stage TEXT: a heading with the time since the script began.
 stage() { printf '\n==> [%3d s] %s\n' "$SECONDS" "$*"; }

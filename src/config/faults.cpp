@@ -4,9 +4,20 @@
 #include <utility>
 
 namespace swarm_planner {
+namespace {
+
+// Of a key or a message [characters]: what a file says is repeated only so far.
+constexpr std::size_t kMostText = 300;
+
+std::string excerpt(std::string text) {
+  if (text.size() <= kMostText) return text;
+  return text.substr(0, kMostText) + "... (" + std::to_string(text.size()) + " characters)";
+}
+
+}  // namespace
 
 void Faults::add(std::string source, std::string key, std::string message) {
-  list_.push_back({std::move(source), std::move(key), std::move(message)});
+  list_.push_back({std::move(source), excerpt(std::move(key)), excerpt(std::move(message))});
 }
 
 std::string Faults::text() const {

@@ -211,6 +211,9 @@ void addInput(TableBuilder& table) {
   table.number(
       "track_timeout", "s", Range::above(0.0), [](P& p) -> double& { return p.input.track_timeout; },
       "an obstacle track is predicted for at most so long");
+  table.wholeNumber(
+      "max_tracks", Range::closed(1.0, 10000.0), [](P& p) -> int& { return p.input.max_tracks; },
+      "obstacle tracks in use; of more than that the nearest to the UAVs are kept");
   table.number(
       "track_sigmas", "", Range::closed(0.0, 10.0), [](P& p) -> double& { return p.input.track_sigmas; },
       "how many standard deviations of an obstacle track are kept clear of");

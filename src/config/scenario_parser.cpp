@@ -4,6 +4,7 @@
 #include "fault_reader.hpp"
 #include "parameter_table.hpp"
 #include "ros_names.hpp"
+#include "scenario_limits.hpp"
 #include "spelling.hpp"
 #include "swarm_planner/config/scenario.hpp"
 #include "yaml_reader.hpp"
@@ -169,13 +170,17 @@ Scenario readScenario(const YamlNode& node) {
 Scenario parseScenarioText(const std::string& yaml, const std::string& source, Faults& faults) {
   const YamlSource yaml_source{source, faults};
   const std::optional<YamlNode> root = YamlNode::parse(yaml, yaml_source);
-  return root ? readScenario(*root) : Scenario();
+  const Scenario scenario = root ? readScenario(*root) : Scenario();
+  addAbsurdNumbers(scenario, source, faults);
+  return scenario;
 }
 
 Scenario parseScenarioFile(const std::string& path, Faults& faults) {
   const YamlSource yaml_source{path, faults};
   const std::optional<YamlNode> root = YamlNode::load(yaml_source);
-  return root ? readScenario(*root) : Scenario();
+  const Scenario scenario = root ? readScenario(*root) : Scenario();
+  addAbsurdNumbers(scenario, path, faults);
+  return scenario;
 }
 
 }  // namespace swarm_planner

@@ -9,6 +9,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr std::size_t kMostListed = 12;
+constexpr std::size_t kLongestWord = 60;
 
 /// Levenshtein's distance: insertions, deletions and replacements that turn one word into the other.
 std::size_t editDistance(const std::string& from, const std::string& to) {
@@ -40,6 +41,8 @@ std::string unknownKeyMessage(const std::string& key, const std::vector<std::str
   const std::string* closest = nullptr;
   // A typing error changes a letter or two; in a short name two changes make another word.
   std::size_t least = (key.size() + 1) / 3 + 1;
+  // What is much longer than any word is none with a typing error, and would take long to compare.
+  if (key.size() > kLongestWord) return "unknown key, expected one of: " + joined(known);
   for (const std::string& candidate : known) {
     const std::size_t distance = editDistance(key, candidate);
     if (distance >= least) continue;

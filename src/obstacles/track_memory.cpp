@@ -5,24 +5,26 @@
 #include <cmath>
 #include <utility>
 
+#include "swarm_planner/config/plausible.hpp"
+
 namespace swarm_planner {
 namespace {
 
-/// False for NaN too.
-bool isSigma(double sigma) { return sigma >= 0.0 && std::isfinite(sigma); }
-
 bool isUsable(const TrackedObstacle& track, double now) {
   const Superellipsoid& shape = track.shape;
-  return std::isfinite(track.stamp) && track.stamp <= now + kClockTolerance && shape.center().allFinite() &&
-         shape.velocity().allFinite() && shape.radii().allFinite() && shape.exponents().allFinite() &&
-         std::isfinite(shape.yaw()) && isSigma(track.position_sigma) && isSigma(track.velocity_sigma);
+  return std::isfinite(track.stamp) && track.stamp <= now + kClockTolerance &&
+         isWithin(shape.center(), kMostCoordinate) && isWithin(shape.velocity(), kMostSpeed) &&
+         isPlausibleShape(shape.radii(), shape.exponents()) && std::isfinite(shape.yaw()) &&
+         isPlausibleSigma(track.position_sigma) && isPlausibleSigma(track.velocity_sigma);
 }
 
 }  // namespace
 
-TrackMemory::TrackMemory(double timeout, std::size_t capacity) : timeout_(timeout) {
-  tracks_.reserve(capacity);
-  merged_.reserve(capacity);
+TrackMemory::TrackMemory(double timeout, std::size_t capacity, std::size_t places)
+    : timeout_(timeout), capacity_(capacity), nearest_(places, 2 * capacity) {
+  // Until the farthest have gone there are those known and those reported.
+  tracks_.reserve(2 * capacity);
+  merged_.reserve(2 * capacity);
   candidates_.reserve(capacity);
 }
 
@@ -53,6 +55,10 @@ void TrackMemory::update(const std::vector<TrackedObstacle>& tracks, double now)
   for (; known != tracks_.cend(); ++known) take(*known);
   std::swap(tracks_, merged_);
   forget(now);
+}
+
+std::size_t TrackMemory::keepNearest(const std::vector<Vector3>& places) {
+  return nearest_.keep(capacity_, places, tracks_);
 }
 
 void TrackMemory::forget(double now) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/input_fault.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -36,6 +37,10 @@ std::optional<Eigen::Isometry3d> FrameTransformer::toPlanning(const std::string&
     why = "header.frame_id is empty";
     return std::nullopt;
   }
+  if (source.size() > kLongestName) {
+    why = "header.frame_id is no name of a frame: '" + shortened(source) + "'";
+    return std::nullopt;
+  }
   if (source == planning_frame_) return Eigen::Isometry3d::Identity();
   try {
     try {
@@ -47,7 +52,7 @@ std::optional<Eigen::Isometry3d> FrameTransformer::toPlanning(const std::string&
       throw;
     }
   } catch (const tf2::TransformException& error) {
-    why = "no transform from '" + source + "' to '" + planning_frame_ + "': " + error.what();
+    why = "no transform from '" + shortened(source) + "' to '" + planning_frame_ + "': " + shortened(error.what(), 200);
     return std::nullopt;
   }
 }

@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/obstacle_sim_node.hpp"
 
-#include <ros/transport_hints.h>
-
 #include <utility>
 
+#include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 #include "swarm_planner/ros/track_conversion.hpp"
@@ -15,6 +14,10 @@ namespace {
 
 // Between looks for messages that are due [s].
 constexpr double kPublicationPeriod = 0.01;
+// A run begins about a cycle ahead [s].
+constexpr double kMostAhead = 60.0;
+// As diagnostics call it.
+constexpr char kStatus[] = "planner status";
 
 }  // namespace
 
@@ -23,11 +26,15 @@ ObstacleSimNode::ObstacleSimNode(const Mission& mission)
       link_(mission.parameters.simulation,
             streamSeed(static_cast<std::uint64_t>(mission.parameters.simulation.seed), RandomUse::kTrackLink)),
       faults_(mission, static_cast<std::uint64_t>(mission.parameters.simulation.seed)),
+      watch_(node_),
       fault_service_(mission, faults_, concernsTracks, [] { return toSeconds(ros::Time::now()); }) {
   for (const ScenarioObstacle& obstacle : mission.scenario.obstacles) obstacles_.push_back(makeObstacle(obstacle));
   publisher_ = node_.advertise<ObstacleTrackArray>(kObstacleTracksTopic, kObstacleTracksQueueSize);
-  status_subscriber_ = node_.subscribe(kPlannerStatusTopic, kStatusQueueSize, &ObstacleSimNode::receiveStatus, this,
-                                       ros::TransportHints().tcpNoDelay());
+  const auto most_bytes = kMostStatusBytesPerUav * static_cast<std::uint32_t>(mission.scenario.uavs.size() + 1);
+  status_subscriber_ = subscribeGuarded<PlannerStatus>(
+      node_, kPlannerStatusTopic, {kStatusQueueSize, most_bytes},
+      [this](const PlannerStatus& status) { receiveStatus(status); },
+      [this](InputFault fault, const std::string& why) { watch_.refuse(kStatus, fault, why); });
   const SimulationParameters& simulation = mission.parameters.simulation;
   measurement_timer_ =
       node_.createTimer(ros::Duration(1.0 / simulation.track_rate), [this](const ros::TimerEvent&) { measure(); });
@@ -38,9 +45,15 @@ ObstacleSimNode::ObstacleSimNode(const Mission& mission)
 }
 
 void ObstacleSimNode::receiveStatus(const PlannerStatus& status) {
+  const double time_zero = toSeconds(status.time_zero);
+  if (status.started && !(time_zero > 0.0 && time_zero < toSeconds(ros::Time::now()) + kMostAhead)) {
+    watch_.refuse(kStatus, InputFault::kAbsurd, "its t = 0 cannot be");
+    return;
+  }
+  watch_.accept(kStatus);
   const std::optional<double> before = time_zero_;
   time_zero_.reset();
-  if (status.started) time_zero_ = toSeconds(status.time_zero);
+  if (status.started) time_zero_ = time_zero;
   if (time_zero_ && time_zero_ != before) faults_.scheduleScenario(*time_zero_);
 }
 

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/planner_diagnostics.hpp"
 
-#include <numeric>
-
+#include "swarm_planner/ros/input_watch.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
@@ -38,6 +37,7 @@ PlannerDiagnostics::PlannerDiagnostics(const std::vector<std::string>& uav_names
   updater_.setHardwareID("swarm_planner");
   updater_.add("planning cycle", this, &PlannerDiagnostics::describeCycle);
   updater_.add("obstacle tracks", this, &PlannerDiagnostics::describeTracks);
+  updater_.add("transforms", this, &PlannerDiagnostics::describeTransforms);
   for (std::size_t uav = 0; uav < uav_names.size(); ++uav) {
     updater_.add(uav_names[uav], [this, uav](Status& status) { describeUav(uav, status); });
   }
@@ -48,13 +48,16 @@ void PlannerDiagnostics::addCycle(const PlannerStatus& status) {
   tally_.add(status);
 }
 
-void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now) {
+void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackInput& tracks,
+                                 const TransformInputReport& transforms, double now) {
   uavs_ = uavs;
   tracks_ = tracks;
+  transforms_ = transforms;
   now_ = now;
   updater_.force_update();
   last_uavs_ = uavs_;
   last_tracks_ = tracks_;
+  last_transforms_ = transforms_;
   last_time_ = now;
   tally_.clear();
 }
@@ -89,11 +92,15 @@ void PlannerDiagnostics::describeCycle(Status& status) {
   status.add("plans rejected since the last report", tally_.rejectedPlans());
   status.add("plans rejected", planner_status_.rejected_plans);
   status.add("obstacle tracks refused", tally_.refusedTracks());
+  status.add("references set", references_);
+  status.add("references refused", references_refused_);
 }
 
 void PlannerDiagnostics::describeTracks(Status& status) {
   const double age = now_ - tracks_.stamp;
-  if (tracks_.faults > last_tracks_.faults) {
+  if (tracks_.crowded > last_tracks_.crowded) {
+    status.summaryf(DiagnosticStatus::ERROR, "too many tracks: the %zu nearest to the UAVs are used", tracks_.known);
+  } else if (tracks_.dropped.total() > last_tracks_.dropped.total()) {
     status.summary(DiagnosticStatus::WARN, tracks_.last_fault);
   } else if (!tracks_.received) {
     status.summary(DiagnosticStatus::OK, "no obstacles received");
@@ -104,7 +111,15 @@ void PlannerDiagnostics::describeTracks(Status& status) {
   }
   status.addf("rate [Hz]", "%.1f", rate(tracks_.messages, last_tracks_.messages));
   if (tracks_.received) status.addf("age [s]", "%.2f", age);
-  status.add("tracks or messages dropped", tracks_.faults);
+  addDropped("tracks or messages dropped", tracks_.dropped, status);
+}
+
+void PlannerDiagnostics::describeTransforms(Status& status) {
+  const bool dropped = transforms_.dropped.total() > last_transforms_.dropped.total();
+  status.summary(dropped ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                 dropped ? transforms_.last_fault : "no transform dropped");
+  status.addf("rate [Hz]", "%.1f", rate(transforms_.accepted, last_transforms_.accepted));
+  addDropped("transforms or messages dropped", transforms_.dropped, status);
 }
 
 void PlannerDiagnostics::describeUav(std::size_t uav, Status& status) {
@@ -128,11 +143,7 @@ void PlannerDiagnostics::describeUav(std::size_t uav, Status& status) {
   }
   status.addf("odometry rate [Hz]", "%.1f", rate(input.accepted, last_uavs_[uav].accepted));
   if (input.received) status.addf("odometry age [s]", "%.2f", now_ - input.sample.stamp);
-  status.add("odometry dropped", std::accumulate(input.dropped.begin(), input.dropped.end(), std::uint64_t{0}));
-  for (std::size_t fault = 1; fault < kOdometryFaults; ++fault) {
-    if (input.dropped[fault] == 0) continue;
-    status.add(std::string("odometry dropped: ") + faultText(static_cast<OdometryFault>(fault)), input.dropped[fault]);
-  }
+  addDropped("odometry dropped", input.dropped, status);
 }
 
 }  // namespace swarm_planner

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/status_conversion.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
@@ -19,11 +20,21 @@ namespace {
 
 // Between two messages of a kind to the console [s].
 constexpr double kWarningPeriod = 5.0;
+// The same for answers to services: a new reference for every UAV of a swarm is not news for each [s].
+constexpr double kServicePeriod = 0.1;
+// Names in one message.
+constexpr std::size_t kMostNames = 12;
 
 std::vector<std::string> namesOf(const SwarmPlanner& planner) {
   std::vector<std::string> names;
   for (std::size_t uav = 0; uav < planner.uavCount(); ++uav) names.push_back(planner.uavName(uav));
   return names;
+}
+
+InputParameters inputLimits(const Mission& mission) {
+  InputParameters limits = mission.parameters.input;
+  limits.max_tracks = static_cast<int>(maxTracks(mission));
+  return limits;
 }
 
 // One period ahead of the time at which the timer should have fired, which keeps epochs equidistant however late the
@@ -42,7 +53,7 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       frame_(options.planning_frame.empty() ? mission.scenario.frame_id : options.planning_frame),
       cycle_period_(mission.parameters.time.cycle_period),
       setpoint_repeats_(mission.parameters.input.setpoint_repeats),
-      inputs_(names_, frame_, options, mission.parameters.input),
+      inputs_(names_, frame_, options, inputLimits(mission)),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
       markers_(mission, frame_, options, inputs_),
@@ -51,15 +62,15 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
     ROS_WARN("setpoint_horizon is %.2f s: vehicles run out of setpoints when one cycle of %.2f s is lost",
              options.setpoint_horizon, cycle_period_);
   }
+  advertiseServices();
   ros::NodeHandle node;
-  ros::NodeHandle private_node("~");
-  set_reference_server_ = private_node.advertiseService(kSetReferenceService, &PlannerNode::setReference, this);
   cycle_timer_ = node.createTimer(ros::Duration(cycle_period_), &PlannerNode::runCycle, this);
   repeat_timer_ = node.createTimer(ros::Duration(cycle_period_ / (1 + setpoint_repeats_)),
                                    &PlannerNode::repeatSetpoints, this, false, false);
   diagnostics_timer_ =
       node.createWallTimer(ros::WallDuration(options.diagnostic_period), [this](const ros::WallTimerEvent&) {
-        diagnostics_.publish(inputs_.store().uavs(), inputs_.store().tracks(), toSeconds(ros::Time::now()));
+        diagnostics_.publish(inputs_.store().uavs(), inputs_.store().tracks(), inputs_.transforms(),
+                             toSeconds(ros::Time::now()));
       });
   ROS_INFO("Planning for %zu UAVs of '%s' in frame '%s' every %.2f s", names_.size(), mission.scenario.name.c_str(),
            frame_.c_str(), cycle_period_);
@@ -135,19 +146,35 @@ void PlannerNode::resetAfterTimeJump(double now) {
   markers_.clear();
 }
 
+void PlannerNode::advertiseServices() {
+  ros::NodeHandle private_node("~");
+  set_reference_server_ = advertiseGuarded<SetReference>(
+      private_node, kSetReferenceService, kMostReferenceBytes,
+      [this](SetReference::Request& request, SetReference::Response& response) {
+        return setReference(request, response);
+      },
+      [this](InputFault, const std::string& why, SetReference::Response& response) { refuseReference(why, response); });
+}
+
 bool PlannerNode::setReference(SetReference::Request& request, SetReference::Response& response) {
   try {
     const std::size_t uav = uavIndex(request.uav);
     planner_.setReference(uav, pathInPlanningFrame(request), request.start, request.speed);
+    diagnostics_.addReference(true);
     response.success = true;
     response.message = request.uav + " follows the new reference from the next epoch on";
-    ROS_INFO_STREAM(response.message);
+    ROS_INFO_STREAM_THROTTLE(kServicePeriod, response.message);
   } catch (const std::invalid_argument& error) {
-    response.success = false;
-    response.message = error.what();
-    ROS_WARN_STREAM("set_reference refused: " << response.message);
+    refuseReference(error.what(), response);
   }
   return true;  // false would drop the message that says why
+}
+
+void PlannerNode::refuseReference(const std::string& why, SetReference::Response& response) {
+  diagnostics_.addReference(false);
+  response.success = false;
+  response.message = why;
+  ROS_WARN_STREAM_THROTTLE(kServicePeriod, "set_reference refused: " << why);
 }
 
 std::vector<Vector3> PlannerNode::pathInPlanningFrame(const SetReference::Request& request) const {
@@ -163,8 +190,9 @@ std::size_t PlannerNode::uavIndex(const std::string& name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found != names_.end()) return static_cast<std::size_t>(found - names_.begin());
   std::string known;
-  for (const std::string& each : names_) known += (known.empty() ? "" : ", ") + each;
-  throw std::invalid_argument("no UAV is called '" + name + "'; there are: " + known);
+  for (std::size_t i = 0; i < std::min(kMostNames, names_.size()); ++i) known += (i == 0 ? "" : ", ") + names_[i];
+  if (names_.size() > kMostNames) known += " and " + std::to_string(names_.size() - kMostNames) + " more";
+  throw std::invalid_argument("no UAV is called '" + shortened(name) + "'; there are: " + known);
 }
 
 }  // namespace swarm_planner

@@ -3,15 +3,13 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <ros/transport_hints.h>
 #include <tf2/buffer_core.h>
 
 #include <algorithm>
-#include <boost/function.hpp>
 #include <fstream>
-#include <stdexcept>
 
 #include "swarm_planner/ros/geometry_conversion.hpp"
+#include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/quad_odometry.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
@@ -25,8 +23,16 @@ namespace {
 constexpr double kStep = 0.01;
 // A longer gap is a jump of time, not a delay to make up for [s].
 constexpr double kJump = 1.0;
-// Between warnings of one kind [s].
-constexpr double kWarningPeriod = 5.0;
+// A run begins about a cycle ahead [s].
+constexpr double kMostAhead = 60.0;
+// No planner takes longer for a cycle [s].
+constexpr double kLongestCycle = 3600.0;
+// Tracks that a message may have beyond the scenario's obstacles, and what one of them takes [bytes].
+constexpr std::size_t kSpareTracks = 1000;
+constexpr std::uint32_t kTrackBytes = 160;
+// Inputs, as diagnostics call them.
+constexpr char kTracks[] = "obstacle tracks";
+constexpr char kStatus[] = "planner status";
 
 }  // namespace
 
@@ -36,6 +42,7 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
       clock_(options.speed),
       faults_(mission, static_cast<std::uint64_t>(mission.parameters.simulation.seed)),
       samples_(mission.scenario.uavs.size()),
+      watch_(node_),
       fault_service_(mission_, faults_, concernsVehicles, [this] { return time_; }) {
   const auto seed = static_cast<std::uint64_t>(mission_.parameters.simulation.seed);
   const SimulationParameters& simulation = mission_.parameters.simulation;
@@ -62,33 +69,46 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
 }
 
 void QuadSimNode::subscribe() {
-  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  subscribeTrajectories();
+  const auto refuse = [this](const char* input) {
+    return [this, input](InputFault fault, const std::string& why) { watch_.refuse(input, fault, why); };
+  };
+  // The truth of this scenario: a message with far more than its obstacles is none.
+  const auto most_tracks = static_cast<std::uint32_t>(obstacles_.size() + kSpareTracks);
+  subscribers_.push_back(subscribeGuarded<ObstacleTrackArray>(
+      node_, kObstacleTracksTopic, {kObstacleTracksQueueSize, most_tracks * kTrackBytes},
+      [this](const ObstacleTrackArray& message) { receiveTracks(message); }, refuse(kTracks)));
+  subscribers_.push_back(subscribeGuarded<PlannerStatus>(
+      node_, kPlannerStatusTopic,
+      {kStatusQueueSize, kMostStatusBytesPerUav * static_cast<std::uint32_t>(quads_.size() + 1)},
+      [this](const PlannerStatus& status) { receiveStatus(status); }, refuse(kStatus)));
+}
+
+void QuadSimNode::subscribeTrajectories() {
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
-    const boost::function<void(const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr&)> callback =
-        [this, uav](const trajectory_msgs::MultiDOFJointTrajectory::ConstPtr& message) {
-          receiveTrajectory(uav, *message);
-        };
-    const std::string topic = nameForUav(options_.trajectory_topic, mission_.scenario.uavs[uav].name);
-    subscribers_.push_back(node_.subscribe<trajectory_msgs::MultiDOFJointTrajectory>(
-        topic, kTrajectoryQueueSize, callback, ros::VoidConstPtr(), hints));
+    const std::string& name = mission_.scenario.uavs[uav].name;
+    subscribers_.push_back(subscribeGuarded<trajectory_msgs::MultiDOFJointTrajectory>(
+        node_, nameForUav(options_.trajectory_topic, name), {kTrajectoryQueueSize, kMostTrajectoryBytes},
+        [this, uav](const trajectory_msgs::MultiDOFJointTrajectory& message) { receiveTrajectory(uav, message); },
+        [this, name](InputFault fault, const std::string& why) {
+          watch_.refuse("trajectory of " + name, fault, why);
+        }));
   }
-  subscribers_.push_back(
-      node_.subscribe(kObstacleTracksTopic, kObstacleTracksQueueSize, &QuadSimNode::receiveTracks, this, hints));
-  subscribers_.push_back(
-      node_.subscribe(kPlannerStatusTopic, kStatusQueueSize, &QuadSimNode::receiveStatus, this, hints));
 }
 
 void QuadSimNode::receiveTrajectory(std::size_t uav, const trajectory_msgs::MultiDOFJointTrajectory& message) {
-  const std::string& name = mission_.scenario.uavs[uav].name;
-  if (message.header.frame_id != mission_.scenario.frame_id) {
-    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory in frame '%s' ignored, expected '%s'", name.c_str(),
-                      message.header.frame_id.c_str(), mission_.scenario.frame_id.c_str());
-    return;
+  const std::string input = "trajectory of " + mission_.scenario.uavs[uav].name;
+  InputFault fault = faultOf(message);
+  std::string why = std::string("it cannot be flown: ") + faultText(fault);
+  if (fault == InputFault::kNone && message.header.frame_id != mission_.scenario.frame_id) {
+    fault = InputFault::kFrame;
+    why = "in frame '" + shortened(message.header.frame_id) + "', expected '" + mission_.scenario.frame_id + "'";
   }
-  try {
+  if (fault == InputFault::kNone) {
+    watch_.accept(input);
     trajectory_links_[uav].send(time_, toSetpoints(message));
-  } catch (const std::invalid_argument& error) {
-    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: %s", name.c_str(), error.what());
+  } else {
+    watch_.refuse(input, fault, why);
   }
   deliverTrajectories(uav);
 }
@@ -98,8 +118,8 @@ void QuadSimNode::deliverTrajectories(std::size_t uav) {
     quads_[uav].advanceTo(arrival);
     if (!faults_.setpointsReach(uav)) return;
     if (quads_[uav].receive(trajectory)) return;
-    ROS_WARN_THROTTLE(kWarningPeriod, "%s: trajectory ignored: it cannot be flown",
-                      mission_.scenario.uavs[uav].name.c_str());
+    watch_.refuse("trajectory of " + mission_.scenario.uavs[uav].name, InputFault::kFromFuture,
+                  "it begins more than a minute ahead");
   });
 }
 
@@ -108,7 +128,7 @@ void QuadSimNode::receiveTracks(const ObstacleTrackArray& message) {
   const tf2::BufferCore no_transforms;
   const FrameTransformer frames(no_transforms, mission_.scenario.frame_id, 0.0);
   const TrackBatch batch = convertTracks(message, frames, toSeconds(message.header.stamp), kJump);
-  for (const std::string& fault : batch.faults) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, fault);
+  if (!batch.faults.empty()) watch_.refuse(kTracks, batch.dropped, batch.faults.front());
   for (const TrackedObstacle& track : batch.tracks) {
     const auto known = std::find_if(obstacles_.begin(), obstacles_.end(), [&track](const TrackedObstacle& obstacle) {
       return obstacle.shape.id() == track.shape.id();
@@ -124,6 +144,12 @@ void QuadSimNode::receiveStatus(const PlannerStatus& status) {
     return;
   }
   const double time_zero = toSeconds(status.time_zero);
+  const double cycle_time = status.cycle_time;
+  if (!(time_zero > 0.0 && time_zero < time_ + kMostAhead && cycle_time >= 0.0 && cycle_time < kLongestCycle)) {
+    watch_.refuse(kStatus, InputFault::kAbsurd, "its t = 0 or its cycle time cannot be");
+    return;
+  }
+  watch_.accept(kStatus);
   if (time_zero_ != time_zero) {
     time_zero_ = time_zero;
     monitor_.emplace(mission_);
@@ -132,11 +158,11 @@ void QuadSimNode::receiveStatus(const PlannerStatus& status) {
     cycle_time_sum_ = 0.0;
     cycle_time_max_ = 0.0;
     clear_ = false;
-    ROS_INFO("Run of '%s' starts at %.2f s", mission_.scenario.name.c_str(), time_zero);
+    ROS_INFO_THROTTLE(kJump, "Run of '%s' starts at %.2f s", mission_.scenario.name.c_str(), time_zero);
   }
   ++cycles_;
-  cycle_time_sum_ += status.cycle_time;
-  cycle_time_max_ = std::max(cycle_time_max_, status.cycle_time);
+  cycle_time_sum_ += cycle_time;
+  cycle_time_max_ = std::max(cycle_time_max_, cycle_time);
   deadline_misses_ = status.deadline_misses;
 }
 

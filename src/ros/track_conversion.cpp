@@ -5,8 +5,9 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <set>
+#include <unordered_set>
 
+#include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
@@ -17,20 +18,38 @@ namespace {
 // A 30 m tall body leans by 6 cm at its top [rad].
 constexpr double kMaxTilt = 0.002;
 
-// What is wrong with the numbers of a track; empty if nothing is.
-std::string faultOf(const ObstacleTrack& track) {
+struct TrackFault {
+  InputFault fault;
+  const char* text;  ///< empty if there is none
+};
+
+constexpr TrackFault kUsable{InputFault::kNone, ""};
+
+// What is wrong with the numbers of a track.
+TrackFault faultOf(const ObstacleTrack& track) {
+  const Vector3 center = toVector3(track.center);
+  const Vector3 velocity = toVector3(track.velocity);
   const Vector3 radii = toVector3(track.radii);
   const Vector3 exponents = toVector3(track.exponents);
-  if (!toVector3(track.center).allFinite()) return "its centre is not finite";
-  if (!toVector3(track.velocity).allFinite()) return "its velocity is not finite";
-  if (!radii.allFinite() || radii.minCoeff() <= 0.0) return "its radii must be finite and positive";
-  if (!exponents.allFinite() || exponents.minCoeff() < 2.0) return "its exponents must be finite and at least 2";
-  if (!isUnit(toQuaternion(track.orientation))) return "its orientation is not a unit quaternion";
+  if (!center.allFinite()) return {InputFault::kNotFinite, "its centre is not finite"};
+  if (!velocity.allFinite()) return {InputFault::kNotFinite, "its velocity is not finite"};
+  if (!radii.allFinite() || radii.minCoeff() <= 0.0) {
+    return {InputFault::kShape, "its radii must be finite and positive"};
+  }
+  if (!exponents.allFinite() || exponents.minCoeff() < 2.0) {
+    return {InputFault::kShape, "its exponents must be finite and at least 2"};
+  }
+  if (!isUnit(toQuaternion(track.orientation))) {
+    return {InputFault::kOrientation, "its orientation is not a unit quaternion"};
+  }
   const bool sigmas_finite = std::isfinite(track.position_sigma) && std::isfinite(track.velocity_sigma);
   if (!sigmas_finite || std::min(track.position_sigma, track.velocity_sigma) < 0.0) {
-    return "its standard deviations must be finite and not negative";
+    return {InputFault::kShape, "its standard deviations must be finite and not negative"};
   }
-  return "";
+  const bool plausible = isWithin(center, kMostCoordinate) && isWithin(velocity, kMostSpeed) &&
+                         isPlausibleShape(radii, exponents) && isPlausibleSigma(track.position_sigma) &&
+                         isPlausibleSigma(track.velocity_sigma);
+  return plausible ? kUsable : TrackFault{InputFault::kAbsurd, "its numbers are absurd"};
 }
 
 Superellipsoid uprightBody(const ObstacleTrack& track, const Eigen::Isometry3d& pose) {
@@ -47,40 +66,49 @@ Superellipsoid uprightBody(const ObstacleTrack& track, const Eigen::Isometry3d& 
                         velocity);
 }
 
-std::optional<std::string> stampFault(double stamp, double now, double timeout) {
+// Drops the message if its stamp is not of now.
+void judgeStamp(double stamp, double now, double timeout, TrackBatch& batch) {
   char text[120];
   if (stamp > now + kFutureTolerance) {
     std::snprintf(text, sizeof(text), "obstacle tracks are stamped %.2f s ahead of ROS time", stamp - now);
+    batch.drop(InputFault::kFromFuture, text);
   } else if (now - stamp > timeout) {
     std::snprintf(text, sizeof(text), "obstacle tracks are %.2f s old, limit %.2f s", now - stamp, timeout);
-  } else {
-    return std::nullopt;
+    batch.drop(InputFault::kStale, text);
   }
-  return std::string(text);
 }
 
 }  // namespace
+
+void TrackBatch::drop(InputFault fault, const std::string& sentence) {
+  dropped.add(fault);
+  if (faults.size() < kMostSentences) faults.push_back(sentence);
+}
 
 TrackBatch convertTracks(const ObstacleTrackArray& message, const FrameTransformer& frames, double now,
                          double timeout) {
   TrackBatch batch;
   const double stamp = toSeconds(message.header.stamp);
-  if (const auto fault = stampFault(stamp, now, timeout)) {
-    batch.faults.push_back(*fault);
-    return batch;
-  }
+  judgeStamp(stamp, now, timeout, batch);
+  if (!batch.faults.empty()) return batch;
   std::string why;
   const auto pose = frames.toPlanning(message.header.frame_id, message.header.stamp, why);
   if (!pose) {
-    batch.faults.push_back("obstacle tracks: " + why);
+    batch.drop(InputFault::kFrame, "obstacle tracks: " + why);
     return batch;
   }
-  std::set<int> seen;
+  std::unordered_set<int> seen;
+  seen.reserve(message.tracks.size());
   for (const ObstacleTrack& track : message.tracks) {
-    std::string fault = faultOf(track);
-    if (fault.empty() && !seen.insert(track.id).second) fault = "its id came twice in one message";
-    if (!fault.empty()) {
-      batch.faults.push_back("obstacle track " + std::to_string(track.id) + " dropped: " + fault);
+    TrackFault fault = faultOf(track);
+    if (fault.fault == InputFault::kNone && !isWithin(*pose * toVector3(track.center), kMostCoordinate)) {
+      fault = {InputFault::kAbsurd, "its place in the planning frame is absurd"};
+    }
+    if (fault.fault == InputFault::kNone && !seen.insert(track.id).second) {
+      fault = {InputFault::kDuplicate, "its id came twice in one message"};
+    }
+    if (fault.fault != InputFault::kNone) {
+      batch.drop(fault.fault, "obstacle track " + std::to_string(track.id) + " dropped: " + fault.text);
       continue;
     }
     TrackedObstacle obstacle;

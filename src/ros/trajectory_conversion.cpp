@@ -1,10 +1,14 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/trajectory_conversion.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
+#include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
+#include "swarm_planner/simulation/setpoint_track.hpp"
 
 namespace swarm_planner {
 
@@ -26,6 +30,22 @@ void toMessage(const SetpointTrajectory& trajectory, const std::string& frame,
     point.accelerations.resize(1);
     point.accelerations[0].linear = toVector3Message(setpoint.a);
   }
+}
+
+InputFault faultOf(const trajectory_msgs::MultiDOFJointTrajectory& message) {
+  const auto lacks_transform = [](const auto& point) { return point.transforms.empty(); };
+  if (message.points.empty()) return InputFault::kMalformed;
+  if (std::any_of(message.points.begin(), message.points.end(), lacks_transform)) return InputFault::kMalformed;
+  const SetpointTrajectory trajectory = toSetpoints(message);
+  const auto is_finite = [](const Setpoint& x) {
+    return x.p.allFinite() && x.v.allFinite() && x.a.allFinite() && std::isfinite(x.yaw);
+  };
+  if (!std::all_of(trajectory.points.begin(), trajectory.points.end(), is_finite)) return InputFault::kNotFinite;
+  const auto is_plausible = [](const Setpoint& x) {
+    return isWithin(x.p, kMostSetpoint) && isWithin(x.v, kMostSetpoint) && isWithin(x.a, kMostSetpoint);
+  };
+  if (!std::all_of(trajectory.points.begin(), trajectory.points.end(), is_plausible)) return InputFault::kAbsurd;
+  return isFlyable(trajectory) ? InputFault::kNone : InputFault::kOutOfOrder;
 }
 
 SetpointTrajectory toSetpoints(const trajectory_msgs::MultiDOFJointTrajectory& message) {

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "swarm_planner/config/plausible.hpp"
+
 namespace swarm_planner {
 namespace {
 
-constexpr double kMaxMagnitude = 1e6;
+constexpr double kMostAhead = 60.0;  // [s]
+constexpr std::size_t kMostWaiting = 64;
 constexpr double kMinSpacing = 1e-4;  // [s]: the fifth power of it still divides well
 
-bool isPlausible(const Vector3& x) { return x.allFinite() && x.cwiseAbs().maxCoeff() < kMaxMagnitude; }
+bool isPlausible(const Vector3& x) { return isWithin(x, kMostSetpoint); }
 
 MotionSetpoint atRest(const Vector3& p) {
   MotionSetpoint rest;
@@ -48,8 +51,9 @@ bool isFlyable(const SetpointTrajectory& trajectory) {
   double last = -kMinSpacing;
   for (const Setpoint& point : trajectory.points) {
     const double time = point.time_from_start;
-    if (!(time >= 0.0 && time < kMaxMagnitude && time - last >= kMinSpacing)) return false;
+    if (!(time >= 0.0 && time <= kMostSetpoint && time - last >= kMinSpacing)) return false;
     if (!isPlausible(point.p) || !isPlausible(point.v) || !isPlausible(point.a)) return false;
+    if (!std::isfinite(point.yaw)) return false;
     last = time;
   }
   return true;
@@ -58,10 +62,11 @@ bool isFlyable(const SetpointTrajectory& trajectory) {
 SetpointTrack::SetpointTrack(const Vector3& start) : rest_(start) {}
 
 bool SetpointTrack::receive(const SetpointTrajectory& trajectory, double now) {
-  if (!isFlyable(trajectory)) return false;
+  if (!isFlyable(trajectory) || begin(trajectory) > now + kMostAhead) return false;
   const auto later = std::lower_bound(received_.begin(), received_.end(), begin(trajectory),
                                       [](const SetpointTrajectory& x, double t) { return begin(x) < t; });
   received_.erase(later, received_.end());
+  if (received_.size() >= kMostWaiting) received_.pop_back();
   received_.push_back(trajectory);
   // Forget what a successor has already taken over from.
   const SetpointTrajectory* active = activeAt(now);

@@ -128,6 +128,10 @@ Mission makeMission(const Scenario& scenario, const ParameterMap& given, const s
   return resolve(scenario, given, source, faults);
 }
 
+std::size_t maxTracks(const Mission& mission) {
+  return std::max(static_cast<std::size_t>(mission.parameters.input.max_tracks), mission.scenario.obstacles.size());
+}
+
 Superellipsoid makeObstacle(const ScenarioObstacle& obstacle) {
   return Superellipsoid(obstacle.id, obstacle.center, obstacle.radii, obstacle.exponents, obstacle.yaw,
                         obstacle.velocity);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
@@ -20,12 +21,6 @@ namespace {
 
 constexpr double kLargest = 1e8;  // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
-std::size_t maxObstacles(const Mission& mission) {
-  constexpr std::size_t kTracks = 256;
-  return std::max(kTracks, mission.scenario.obstacles.size());
-}
 
 /// False for NaN too.
 bool isPlausible(const Vector3& x) { return (x.array().abs() < kLargest).all(); }
@@ -48,8 +43,8 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
-        tracks(parameters.input.track_timeout, maxObstacles(mission)),
-        surroundings(parameters, uavs.size(), maxObstacles(mission)),
+        tracks(parameters.input.track_timeout, maxTracks(mission), uavs.size()),
+        surroundings(parameters, uavs.size(), maxTracks(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -58,11 +53,12 @@ class SwarmPlanner::Impl {
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
+    places.reserve(uavs.size());
     order.reserve(uavs.size());
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxObstacles(mission));
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxTracks(mission));
     }
   }
 
@@ -78,8 +74,8 @@ class SwarmPlanner::Impl {
     report.epoch = epoch;
     report.out_of_time = false;
     tracks.update(snapshot.obstacles, snapshot.now);
-    report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
+    report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
     if (!report.started && mayStart(snapshot)) {
       report.started = true;
       report.time_zero = epoch;
@@ -93,6 +89,14 @@ class SwarmPlanner::Impl {
   CycleReport report;
 
  private:
+  const std::vector<Vector3>& measuredPlaces(const Snapshot& snapshot) {
+    places.clear();
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (judged[i] == Reason::kNone) places.push_back(snapshot.uavs[i].p);
+    }
+    return places;
+  }
+
   void judgeMeasurements(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const UavMeasurement none;
@@ -178,6 +182,7 @@ class SwarmPlanner::Impl {
   std::vector<UavPlanner> planners;  ///< one per member of the team
   std::size_t first = 0;             ///< the UAV that plans first
   std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
+  std::vector<Vector3> places;       ///< of the UAVs that are measured
 };
 
 SwarmPlanner::SwarmPlanner(const Mission& mission) : impl_(std::make_unique<Impl>(mission)) {}
@@ -206,11 +211,18 @@ const MovingTarget& SwarmPlanner::reference(std::size_t uav) const { return impl
 void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
   if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
   if (path.empty()) throw std::invalid_argument("the path has no point");
+  if (path.size() > kMostPathPoints) {
+    throw std::invalid_argument("the path has " + std::to_string(path.size()) + " points, at most " +
+                                std::to_string(kMostPathPoints) + " allowed");
+  }
   if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return point.allFinite(); })) {
     throw std::invalid_argument("the path has a point that is not finite");
   }
+  if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return isWithin(point, kMostCoordinate); })) {
+    throw std::invalid_argument("the path has a point more than 1e7 m from the origin");
+  }
   if (!(start >= 0.0) || !std::isfinite(start)) throw std::invalid_argument("start must be finite and >= 0");
-  if (!(speed >= 0.0) || !std::isfinite(speed)) throw std::invalid_argument("speed must be finite and >= 0");
+  if (!(speed >= 0.0 && speed <= kMostSpeed)) throw std::invalid_argument("speed must be within [0, 1000] m/s");
   impl_->uavs[uav].setReference(path, start, speed);
 }
 

@@ -120,6 +120,8 @@ const FaultCase kUav[] = {
      "found -.inf, expected a finite number"},
     {"StartIsTooLarge", "[0.0, 100.0, 20.0]", "[0.0, 100.0, 1e400]", "uavs[0].start[2]",
      "found 1e400, expected a finite number"},
+    {"StartIsAbsurd", "[0.0, 100.0, 20.0]", "[0.0, 100.0, 1e8]", "uavs[0].start",
+     "in magnitude"},
     {"StartInQuotes", "[0.0, 100.0, 20.0]", "[0.0, \"100.0\", 20.0]", "uavs[0].start[1]",
      "found \"100.0\", expected a finite number"},
     {"StartIsHexadecimal", "[0.0, 100.0, 20.0]", "[0.0, 0x64, 20.0]", "uavs[0].start[1]",

@@ -125,7 +125,7 @@ TEST(ScenarioWriter, AwkwardTextAndNumbersReadBackExactly) {
   for (const char* name : {"true", "No", "5", "with space", "quote \" and \\", "line\nbreak", "# hash", "~", "1e5"}) {
     Scenario scenario = crossing();
     scenario.name = name;
-    scenario.uavs[0].start = Vector3(1.0 / 3.0, -1e-300, 1e22);
+    scenario.uavs[0].start = Vector3(1.0 / 3.0, -1e-300, 1.2345678901234e6);
     scenario.uavs[0].target.start = std::numeric_limits<double>::denorm_min();
     scenario.overrides["max_acceleration"] = std::numeric_limits<double>::infinity();
     scenario.overrides["force_constant"] = 1e-5;

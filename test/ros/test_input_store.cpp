@@ -2,6 +2,8 @@
 // Breaks for the user: planning from inputs that are old, forgotten too early, or of another time.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/input_store.hpp"
 
@@ -9,6 +11,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kTrackTimeout = 1.0;
+constexpr std::size_t kMaxTracks = 4;
 
 OdometrySample sampleAt(double stamp, double x, double yaw = 0.0) {
   OdometrySample sample;
@@ -33,7 +36,7 @@ class InputStoreTest : public ::testing::Test {
     store_.fill(now, snapshot_);
     return snapshot_;
   }
-  InputStore store_{2, kTrackTimeout};
+  InputStore store_{2, kTrackTimeout, kMaxTracks};
   Snapshot snapshot_;
 };
 
@@ -49,12 +52,34 @@ TEST_F(InputStoreTest, GivesTheNewestSampleOfEachUav) {
   EXPECT_EQ(seen.uavs[1].p.x(), 2.0);
 }
 
+TEST_F(InputStoreTest, CountsWhatComesOutOfOrder) {
+  store_.accept(0, sampleAt(10.2, 2.0));
+  store_.accept(0, sampleAt(10.1, 3.0));
+  EXPECT_EQ(store_.uavs()[0].accepted, 1U);
+  EXPECT_EQ(store_.uavs()[0].dropped.of(InputFault::kOutOfOrder), 1U);
+  store_.accept(0, sampleAt(10.2, 4.0));
+  EXPECT_EQ(store_.uavs()[0].accepted, 2U) << "again is not out of order";
+}
+
+// Ids that a tracker invents anew in every message, near the UAV and far from it.
+TEST_F(InputStoreTest, KeepsTheTracksNearestToTheUavs) {
+  store_.accept(0, sampleAt(10.0, 100.0));
+  for (int i = 0; i < 20; ++i) store_.accept(trackAt(10.0, i, 10.0 * i));
+  EXPECT_EQ(store_.tracks().known, kMaxTracks);
+  EXPECT_EQ(store_.tracks().dropped.of(InputFault::kTooMany), 20U - kMaxTracks);
+  EXPECT_GT(store_.tracks().crowded, 0U);
+  for (const TrackedObstacle& track : snapshot(10.1).obstacles) {
+    EXPECT_LE(std::abs(track.shape.center().x() - 100.0), 20.0);
+  }
+  EXPECT_EQ(store_.uavs()[0].dropped.total(), 0U);
+}
+
 TEST_F(InputStoreTest, RejectedMessageChangesNothingButIsKnown) {
   store_.accept(0, sampleAt(10.0, 1.0));
-  store_.reject(0, OdometryFault::kNotFinite, "position is not finite");
+  store_.reject(0, InputFault::kNotFinite, "position is not finite");
   EXPECT_EQ(snapshot(10.1).uavs[0].p.x(), 1.0);
   EXPECT_EQ(store_.uavs()[0].fault, "position is not finite");
-  EXPECT_EQ(store_.uavs()[0].dropped[static_cast<std::size_t>(OdometryFault::kNotFinite)], 1U);
+  EXPECT_EQ(store_.uavs()[0].dropped.of(InputFault::kNotFinite), 1U);
   store_.accept(0, sampleAt(10.2, 1.5));
   EXPECT_TRUE(store_.uavs()[0].fault.empty());
 }

@@ -41,7 +41,7 @@ class OdometryConversion : public ::testing::Test {
 
 TEST_F(OdometryConversion, RotatesABodyTwistByTheAttitude) {
   const OdometryResult result = convert(goodMessage());
-  ASSERT_EQ(result.fault, OdometryFault::kNone) << result.why;
+  ASSERT_EQ(result.fault, InputFault::kNone) << result.why;
   EXPECT_TRUE(result.sample.p.isApprox(Vector3(1, 2, 3)));
   EXPECT_TRUE(result.sample.v.isApprox(Vector3(0, 4, 0.5), 1e-12)) << result.sample.v.transpose();
   EXPECT_NEAR(yawOf(result.sample.orientation), kHalfPi, 1e-12);
@@ -64,7 +64,7 @@ TEST_F(OdometryConversion, BringsPoseAndTwistIntoThePlanningFrame) {
   message.header.frame_id = "odom";
 
   const OdometryResult body = convert(message);
-  ASSERT_EQ(body.fault, OdometryFault::kNone) << body.why;
+  ASSERT_EQ(body.fault, InputFault::kNone) << body.why;
   EXPECT_TRUE(body.sample.p.isApprox(Vector3(8, 21, 3), 1e-12)) << body.sample.p.transpose();
   EXPECT_TRUE(body.sample.v.isApprox(Vector3(-4, 0, 0.5), 1e-12)) << body.sample.v.transpose();
   EXPECT_TRUE(convert(message, TwistFrame::kWorld).sample.v.isApprox(Vector3(0, 4, 0.5), 1e-12));
@@ -97,7 +97,7 @@ TEST_F(OdometryConversion, SimulatedAttitudePointsTheThrustAsTheModelDoes) {
 
 struct BadOdometry {
   const char* what;
-  OdometryFault fault;
+  InputFault fault;
   const char* message;  ///< that the operator must read
   std::function<void(nav_msgs::Odometry&)> spoil;
 };
@@ -107,23 +107,27 @@ TEST_F(OdometryConversion, DropsWhatCannotBeUsedAndSaysWhy) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   using Odometry = nav_msgs::Odometry;
   const std::vector<BadOdometry> table = {
-      {"NaN position", OdometryFault::kNotFinite, "position is not finite",
+      {"NaN position", InputFault::kNotFinite, "position is not finite",
        [](Odometry& m) { m.pose.pose.position.y = kNan; }},
-      {"infinite velocity", OdometryFault::kNotFinite, "velocity is not finite",
+      {"infinite velocity", InputFault::kNotFinite, "velocity is not finite",
        [](Odometry& m) { m.twist.twist.linear.z = kInfinity; }},
-      {"NaN orientation", OdometryFault::kNotFinite, "orientation is not finite",
+      {"NaN orientation", InputFault::kNotFinite, "orientation is not finite",
        [](Odometry& m) { m.pose.pose.orientation.w = kNan; }},
-      {"no orientation", OdometryFault::kOrientation, "norm 0.000",
+      {"absurd position", InputFault::kAbsurd, "absurd", [](Odometry& m) { m.pose.pose.position.x = 1e8; }},
+      {"absurd velocity", InputFault::kAbsurd, "absurd", [](Odometry& m) { m.twist.twist.linear.z = -1e300; }},
+      {"frame of a megabyte", InputFault::kFrame, "(1000000 characters)",
+       [](Odometry& m) { m.header.frame_id = std::string(1000000, 'f'); }},
+      {"no orientation", InputFault::kOrientation, "norm 0.000",
        [](Odometry& m) { m.pose.pose.orientation = geometry_msgs::Quaternion(); }},
-      {"long quaternion", OdometryFault::kOrientation, "norm 2.000",
+      {"long quaternion", InputFault::kOrientation, "norm 2.000",
        [](Odometry& m) { m.pose.pose.orientation.z = 0, m.pose.pose.orientation.w = 2; }},
-      {"from the future", OdometryFault::kFromFuture, "1.00 s ahead",
+      {"from the future", InputFault::kFromFuture, "1.00 s ahead",
        [](Odometry& m) { m.header.stamp = ros::Time(kNow + 1.0); }},
-      {"stale", OdometryFault::kStale, "2.00 s old, limit 0.50 s",
+      {"stale", InputFault::kStale, "2.00 s old, limit 0.50 s",
        [](Odometry& m) { m.header.stamp = ros::Time(kNow - 2.0); }},
-      {"never stamped", OdometryFault::kStale, "s old", [](Odometry& m) { m.header.stamp = ros::Time(); }},
-      {"unknown frame", OdometryFault::kFrame, "'odom' to 'map'", [](Odometry& m) { m.header.frame_id = "odom"; }},
-      {"no frame", OdometryFault::kFrame, "frame_id is empty", [](Odometry& m) { m.header.frame_id = ""; }},
+      {"never stamped", InputFault::kStale, "has no stamp", [](Odometry& m) { m.header.stamp = ros::Time(); }},
+      {"unknown frame", InputFault::kFrame, "'odom' to 'map'", [](Odometry& m) { m.header.frame_id = "odom"; }},
+      {"no frame", InputFault::kFrame, "frame_id is empty", [](Odometry& m) { m.header.frame_id = ""; }},
   };
   for (const BadOdometry& bad : table) {
     nav_msgs::Odometry message = goodMessage();

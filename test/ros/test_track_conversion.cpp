@@ -106,6 +106,12 @@ TEST_F(TrackConversion, DropsABadTrackAloneAndNamesIt) {
       {"no orientation", "orientation", [](ObstacleTrack& t) { t.orientation = geometry_msgs::Quaternion(); }},
       {"negative sigma", "standard deviations", [](ObstacleTrack& t) { t.velocity_sigma = -0.1; }},
       {"NaN sigma", "standard deviations", [](ObstacleTrack& t) { t.position_sigma = kNan; }},
+      {"absurd centre", "absurd", [](ObstacleTrack& t) { t.center.z = 1e8; }},
+      {"absurd velocity", "absurd", [](ObstacleTrack& t) { t.velocity.x = 1e300; }},
+      {"absurd radius", "absurd", [](ObstacleTrack& t) { t.radii.x = 1e7; }},
+      {"radius of an atom", "absurd", [](ObstacleTrack& t) { t.radii.x = 1e-10; }},
+      {"absurd exponent", "absurd", [](ObstacleTrack& t) { t.exponents.x = 1e4; }},
+      {"absurd sigma", "absurd", [](ObstacleTrack& t) { t.position_sigma = 1e300; }},
       {"repeated id", "twice", [](ObstacleTrack& t) { t.id = 1; }},
   };
   for (const BadTrack& bad : table) {
@@ -120,6 +126,15 @@ TEST_F(TrackConversion, DropsABadTrackAloneAndNamesIt) {
     const std::string name = "track " + std::to_string(tracks[1].id);
     EXPECT_NE(batch.faults[0].find(name), std::string::npos) << bad.what << ": " << batch.faults[0];
   }
+}
+
+TEST_F(TrackConversion, NamesAFewOfManyBadTracksAndCountsAll) {
+  ObstacleTrack bad = toMessage(someBody(1));
+  bad.center.x = 1e300;
+  const TrackBatch batch = convert(arrayOf(std::vector<ObstacleTrack>(100000, bad)));
+  EXPECT_TRUE(batch.tracks.empty());
+  EXPECT_EQ(batch.faults.size(), TrackBatch::kMostSentences);
+  EXPECT_EQ(batch.dropped.of(InputFault::kAbsurd), 100000U);
 }
 
 TEST_F(TrackConversion, DropsAMessageOfAnotherTimeOrFrame) {

@@ -102,6 +102,19 @@ TEST(SetpointTrack, OneThatArrivesAfterItsEpochIsJoinedUnderWay) {
   EXPECT_LT((track.at(1.0).p - plan.at(1.0).p).norm(), 1e-9);
 }
 
+// A source whose clock runs ahead, or that never stops sending for later.
+TEST(SetpointTrack, WhatWaitsIsBounded) {
+  SetpointTrack track(kStart);
+  EXPECT_FALSE(track.receive(at(100.0, Vector3(1.0, 0.0, 0.0)), 0.0)) << "more than a minute ahead";
+  EXPECT_EQ(track.at(101.0).p, kStart);
+  for (int i = 0; i < 10000; ++i) {
+    const double epoch = 1.0 + 0.005 * i;
+    ASSERT_TRUE(track.receive(at(epoch, Vector3(epoch, 0.0, 0.0)), 0.0));
+  }
+  EXPECT_EQ(track.at(1.001).p.x(), 1.0) << "the first to begin stay";
+  EXPECT_EQ(track.at(60.0).p.x(), 1.0 + 0.005 * 9999) << "and the newest";
+}
+
 TEST(SetpointTrack, LargeTimesAreNoTrouble) {
   const double now = 1.7e9 + 0.123456;  // ROS time counts from 1970
   const Trajectory plan = curvedPlan(now);

@@ -202,6 +202,10 @@ TEST(SetReference, RefusesWhatCannotBeFlown) {
   const double length = planner.reference(0).path.length();
   EXPECT_THROW(planner.setReference(2, good, 0.0, 1.0), std::invalid_argument);
   EXPECT_THROW(planner.setReference(0, {}, 0.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(planner.setReference(0, {Vector3(0, 1e8, 0)}, 0.0, 1.0), std::invalid_argument);
+  EXPECT_THROW(planner.setReference(0, good, 0.0, 1e300), std::invalid_argument);
+  const std::vector<Vector3> long_path(10001, Vector3(1, 2, 3));
+  EXPECT_THROW(planner.setReference(0, long_path, 0.0, 1.0), std::invalid_argument);
   EXPECT_THROW(planner.setReference(0, {Vector3(0, kNan, 0)}, 0.0, 1.0), std::invalid_argument);
   EXPECT_THROW(planner.setReference(0, {Vector3(0, 0, 0), Vector3(kInfinity, 0, 0)}, 0.0, 1.0), std::invalid_argument);
   for (const double bad : {-1.0, kNan, kInfinity}) {

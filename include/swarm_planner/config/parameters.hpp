@@ -92,6 +92,7 @@ constexpr double kClockTolerance = 0.05;
 struct InputParameters {
   double odometry_timeout = 0.5;   ///< older odometry is not used [s]
   double track_timeout = 1.0;      ///< an obstacle track is predicted for at most so long [s]
+  int max_tracks = 1000;           ///< of more obstacle tracks those nearest to the UAVs are used
   double track_sigmas = 3.0;       ///< how many standard deviations of a track are kept clear of
   double track_growth_time = 2.0;  ///< the velocity of a track is in doubt for at most so long after its stamp [s]
   double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]

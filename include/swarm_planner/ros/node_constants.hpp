@@ -17,6 +17,9 @@ constexpr char kInjectFaultService[] = "inject_fault";         // ~
 constexpr char kPlannerStatusTopic[] = "planner_node/status";  // kStatusTopic as other nodes see it
 constexpr char kClockTopic[] = "/clock";                       // absolute by ROS convention
 
+constexpr char kTfTopic[] = "/tf";               // as tf2 has it
+constexpr char kTfStaticTopic[] = "/tf_static";  // as tf2 has it
+
 constexpr char kDefaultOdometryTopic[] = "{uav}/odometry";
 constexpr char kDefaultTrajectoryTopic[] = "{uav}/command/trajectory";
 constexpr char kUavPlaceholder[] = "{uav}";
@@ -30,6 +33,16 @@ constexpr std::uint32_t kPlansQueueSize = 1;
 constexpr std::uint32_t kStatusQueueSize = 10;
 constexpr std::uint32_t kMarkersQueueSize = 1;
 constexpr std::uint32_t kClockQueueSize = 1;
+
+constexpr std::uint32_t kTfQueueSize = 100;
+
+// Longer messages are not read [bytes]. They leave room for names and for sources that fill every field.
+constexpr std::uint32_t kMostOdometryBytes = 4096;
+constexpr std::uint32_t kMostTrackBytes = 16000000;      // 100,000 tracks, of which max_tracks are used
+constexpr std::uint32_t kMostTfBytes = 1000000;          // 7,000 transforms with short names
+constexpr std::uint32_t kMostTrajectoryBytes = 8000000;  // 40,000 points
+constexpr std::uint32_t kMostReferenceBytes = 300000;    // kMostPathPoints points, and names
+constexpr std::uint32_t kMostStatusBytesPerUav = 2048;
 
 /// Clocks of different computers and the order in which /clock and messages arrive let a stamp lie so far in the
 /// future without being wrong [s].

@@ -14,6 +14,7 @@
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
 #include "swarm_planner/ros/fault_service.hpp"
+#include "swarm_planner/ros/input_watch.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 
@@ -38,6 +39,7 @@ class ObstacleSimNode {
   MessageLink<ObstacleTrackArray> link_;
   FaultInjector faults_;
   ros::NodeHandle node_;
+  InputWatch watch_;
   ros::Publisher publisher_;
   ros::Subscriber status_subscriber_;
   ros::Timer measurement_timer_, publication_timer_;

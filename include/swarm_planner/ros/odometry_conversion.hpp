@@ -4,24 +4,16 @@
 #include <nav_msgs/Odometry.h>
 
 #include <Eigen/Geometry>
-#include <array>
-#include <cstddef>
 #include <string>
 
 #include "swarm_planner/config/types.hpp"
 #include "swarm_planner/ros/frame_transformer.hpp"
+#include "swarm_planner/ros/input_fault.hpp"
 
 namespace swarm_planner {
 
 /// In which axes a source gives its twist. nav_msgs/Odometry asks for those of the child frame; some give the world's.
 enum class TwistFrame { kBody, kWorld };
-
-/// Why an odometry message cannot be used.
-enum class OdometryFault : std::size_t { kNone, kNotFinite, kOrientation, kFromFuture, kStale, kFrame };
-constexpr std::size_t kOdometryFaults = 6;
-
-/// In words, for operators. A string literal.
-const char* faultText(OdometryFault fault);
 
 /// One measurement of a UAV in the planning frame.
 struct OdometrySample {
@@ -33,7 +25,7 @@ struct OdometrySample {
 
 /// A usable sample, or a fault and what exactly is wrong.
 struct OdometryResult {
-  OdometryFault fault = OdometryFault::kNone;
+  InputFault fault = InputFault::kNone;
   std::string why;
   OdometrySample sample;
 };

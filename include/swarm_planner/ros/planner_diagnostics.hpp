@@ -10,10 +10,11 @@
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/ros/input_store.hpp"
 #include "swarm_planner/ros/status_tally.hpp"
+#include "swarm_planner/ros/transform_input.hpp"
 
 namespace swarm_planner {
 
-/// The planner's health on /diagnostics: the cycle, the obstacle tracks, and one entry per UAV.
+/// The planner's health on /diagnostics: the cycle, the obstacle tracks, the transforms, and one entry per UAV.
 class PlannerDiagnostics {
  public:
   /// `track_timeout` [s]: tracks older than that are out of use.
@@ -21,8 +22,11 @@ class PlannerDiagnostics {
 
   /// Notes a cycle.
   void addCycle(const PlannerStatus& status);
+  /// Notes a request for a new reference.
+  void addReference(bool accepted) { ++(accepted ? references_ : references_refused_); }
   /// Publishes the state since the last call; `now` [s] is ROS time.
-  void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now);
+  void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, const TransformInputReport& transforms,
+               double now);
   /// Time has jumped back: rates start anew.
   void restart();
 
@@ -30,6 +34,7 @@ class PlannerDiagnostics {
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
   void describeCycle(Status& status);
   void describeTracks(Status& status);
+  void describeTransforms(Status& status);
   void describeUav(std::size_t uav, Status& status);
   double rate(std::uint64_t count, std::uint64_t last_count) const;
 
@@ -39,6 +44,8 @@ class PlannerDiagnostics {
   PlannerStatus planner_status_;
   std::vector<UavInput> uavs_, last_uavs_;
   TrackInput tracks_, last_tracks_;
+  TransformInputReport transforms_, last_transforms_;
+  std::uint64_t references_ = 0, references_refused_ = 0;
   double now_ = 0.0, last_time_ = 0.0;  ///< [s]
   StatusTally tally_;                   ///< since the last publication
 };

@@ -40,7 +40,9 @@ class PlannerNode {
   /// Warns of UAVs that do not track, and raises the alarm for those that are not safe.
   void tellOperator() const;
   void resetAfterTimeJump(double now);
+  void advertiseServices();
   bool setReference(SetReference::Request& request, SetReference::Response& response);
+  void refuseReference(const std::string& why, SetReference::Response& response);
   std::vector<Vector3> pathInPlanningFrame(const SetReference::Request& request) const;
   std::size_t uavIndex(const std::string& name) const;
 

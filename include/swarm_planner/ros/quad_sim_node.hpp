@@ -20,6 +20,7 @@
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/ros/fault_service.hpp"
+#include "swarm_planner/ros/input_watch.hpp"
 #include "swarm_planner/ros/quad_sim_options.hpp"
 #include "swarm_planner/ros/run_report.hpp"
 #include "swarm_planner/ros/sim_clock.hpp"
@@ -44,6 +45,7 @@ class QuadSimNode {
 
  private:
   void subscribe();
+  void subscribeTrajectories();
   void receiveTrajectory(std::size_t uav, const trajectory_msgs::MultiDOFJointTrajectory& message);
   void receiveTracks(const ObstacleTrackArray& message);
   void receiveStatus(const PlannerStatus& status);
@@ -80,6 +82,7 @@ class QuadSimNode {
   bool clear_ = false;
 
   ros::NodeHandle node_;
+  InputWatch watch_;
   std::vector<ros::Publisher> odometry_;
   tf2_ros::TransformBroadcaster broadcaster_;
   std::vector<geometry_msgs::TransformStamped> transforms_;

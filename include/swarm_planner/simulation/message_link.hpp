@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -37,11 +38,11 @@ class MessageLink {
   /// `seed` belongs to this link alone.
   MessageLink(const SimulationParameters& simulation, std::uint64_t seed) : delay_(simulation, seed) {}
 
-  /// `message` sets out at `time` [s], not earlier than the one before it.
+  /// `message` sets out at `time` [s], not earlier than the one before it. It is lost if the link is full.
   void send(double time, Message message) {
     const std::uint64_t number = ++sent_;
     const std::optional<double> arrival = delay_.arrival(time);
-    if (!arrival) return;
+    if (!arrival || under_way_.size() >= kMostUnderWay) return;
     // Behind those that arrive at the same instant: they keep their order.
     const auto later = std::upper_bound(under_way_.begin(), under_way_.end(), *arrival,
                                         [](double t, const Parcel& parcel) { return t < parcel.arrival; });
@@ -66,6 +67,8 @@ class MessageLink {
   void clear() { under_way_.clear(); }
 
  private:
+  static constexpr std::size_t kMostUnderWay = 4096;  // 4 s at 1 kHz; a flood does not fill the memory
+
   struct Parcel {
     double arrival;        ///< [s]
     std::uint64_t number;  ///< from 1, in the order of sending

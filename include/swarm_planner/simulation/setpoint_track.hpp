@@ -16,8 +16,11 @@ struct MotionSetpoint {
   Vector3 jerk = Vector3::Zero();  ///< [m/s^3]
 };
 
-/// True if `trajectory` can be flown: at least one point, every number finite and below 1e6 in magnitude (its epoch
-/// only finite), times from the start >= 0 and at least 1e-4 s apart.
+/// Greatest number in a trajectory that can be flown [m, m/s, m/s^2, s].
+constexpr double kMostSetpoint = 0.999e6;
+
+/// True if `trajectory` can be flown: at least one point, every number finite and at most kMostSetpoint in magnitude
+/// (its epoch and yaw only finite), times from the start >= 0 and at least 1e-4 s apart.
 bool isFlyable(const SetpointTrajectory& trajectory);
 
 /// The trajectories that one vehicle has received, as one motion over time.
@@ -32,7 +35,8 @@ class SetpointTrack {
   /// Holds `start` [m] until a trajectory takes over.
   explicit SetpointTrack(const Vector3& start);
 
-  /// False, with nothing changed, if the trajectory is not flyable. `now` [s]: what it may forget.
+  /// False, with nothing changed, if the trajectory is not flyable, or begins more than a minute ahead: trajectories
+  /// that never begin would wait for good. `now` [s]: what it may forget. At most 64 wait; the last to begin gives way.
   bool receive(const SetpointTrajectory& trajectory, double now);
 
   /// The setpoint at `t` [s]. No heap allocation.

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "swarm_planner/config/parameter_io.hpp"
@@ -23,6 +24,9 @@ Mission loadMission(const std::string& scenario_path, const ParameterMap& given)
 /// The same for a scenario made by a program; it is held to the rules of a scenario file. `source` names it in faults;
 /// lines in them are those of toYaml(scenario).
 Mission makeMission(const Scenario& scenario, const ParameterMap& given, const std::string& source);
+
+/// Obstacle tracks in use at most: max_tracks, or as many as the scenario has obstacles if that is more.
+std::size_t maxTracks(const Mission& mission);
 
 /// The obstacle at its t = 0. Throws std::invalid_argument if its numbers make no superellipsoid, which a mission's
 /// obstacles always do.

@@ -94,12 +94,12 @@ struct CycleReport {
   bool started = false;
   bool out_of_time = false;        ///< some UAVs were not planned for within the budget
   double cycle_time = 0.0;         ///< snapshot in, plans out [s] of wall clock
-  std::size_t refused_tracks = 0;  ///< of the snapshot: not finite or from the future (see TrackMemory)
+  std::size_t refused_tracks = 0;  ///< not finite, absurd, from the future or too many (see TrackMemory)
   std::vector<UavReport> uavs;
 };
 
 /// Problem 2: plans for every UAV, one after the other, with the other UAVs' plans held fixed.
-/// Nothing in plan() throws, or allocates on the heap unless more obstacles are tracked than room was made for.
+/// Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
 class SwarmPlanner {
  public:
   explicit SwarmPlanner(const Mission& mission);
@@ -123,8 +123,9 @@ class SwarmPlanner {
   TargetState target(std::size_t uav, double t) const;
   const MovingTarget& reference(std::size_t uav) const;
 
-  /// Replaces a UAV's reference; its time zero is the next epoch. `path` at least one finite point,
-  /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
+  /// Replaces a UAV's reference; its time zero is the next epoch. `path` of 1 to kMostPathPoints plausible
+  /// points, start >= 0 finite, 0 <= speed <= kMostSpeed; throws std::invalid_argument with the reason otherwise. Call
+  /// it between cycles.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
 
   /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.

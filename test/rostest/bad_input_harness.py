@@ -1,0 +1,131 @@
+# Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+"""What the tests of bad input share: messages of given bytes, counts from /diagnostics, the console, a node's memory."""
+
+import os
+import struct
+import subprocess
+import time
+import xmlrpc.client
+
+import rosgraph
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from rosgraph_msgs.msg import Log
+from swarm_harness import Recorder, wait_for
+
+TEN_MEGABYTES = 'x' * 10000000
+# What a node may write at once: bad input names every bad thing in a bounded sentence, a few of them per message.
+MOST_CONSOLE_TEXT = 3000
+
+
+class Diagnostics:
+    """The newest entry of each name."""
+
+    def __init__(self):
+        self._recorder = Recorder('/diagnostics', DiagnosticArray)
+
+    def entry(self, name):
+        for array in reversed(self._recorder.all()):
+            for status in array.status:
+                if status.name == name:
+                    return status
+        return None
+
+    def count(self, name, key):
+        """The value of a counter; 0 as long as it has not been published."""
+        status = self.entry(name)
+        values = {each.key: each.value for each in status.values} if status else {}
+        return int(values.get(key, 0))
+
+    def wait_for_count(self, name, key, more_than, publish=lambda: None):
+        """Publishes until the count has grown."""
+        def grown():
+            publish()
+            return self.count(name, key) > more_than
+        wait_for(grown, '"%s" of %s above %d' % (key, name, more_than))
+
+
+    def wait_for_counts(self, name, key, items, pause=0.05):
+        """`items`: pairs of a cause and what publishes a message with it, once. All of them are counted, each under its
+        cause, in one round; a machine that stands still, or a queue of one message, may lose some, so there are more."""
+        causes = [cause for cause, _ in items]
+
+        def counts():
+            return {cause: self.count(name, key + ': ' + cause) for cause in causes}
+
+        def all_counted():
+            before = counts()
+            for _, publish in items:
+                publish()
+                rospy.sleep(pause)
+            end = time.time() + 5.0
+            while time.time() < end:
+                now = counts()
+                if all(now[cause] - before[cause] >= causes.count(cause) for cause in causes):
+                    return True
+                time.sleep(0.1)
+            print('counted of %s: %s' % (name, {cause: now[cause] - before[cause] for cause in causes}))
+            return False
+        wait_for(all_counted, 'every cause among "%s" of %s' % (key, name))
+
+
+class Console:
+    """What nodes write."""
+
+    def __init__(self):
+        self._recorder = Recorder('/rosout_agg', Log)
+
+    def longest(self, node):
+        return max([len(log.msg) for log in self._recorder.all() if log.name == node] or [0])
+
+    def count(self, node):
+        return len([log for log in self._recorder.all() if log.name == node])
+
+
+class RawBytes:
+    """Publishes bytes as if they were a message of a type."""
+
+    def __init__(self, topic, message_type):
+        self._type = type('Raw', (message_type,), {'serialize': lambda message, buffer: buffer.write(message.raw),
+                                                   '__slots__': message_type.__slots__ + ['raw']})
+        self._publisher = rospy.Publisher(topic, self._type, queue_size=3)
+
+    def publish(self, raw):
+        message = self._type()
+        message.raw = raw
+        self._publisher.publish(message)
+
+    def wait_for_subscriber(self, count=1):
+        wait_for(lambda: self._publisher.get_num_connections() >= count, 'a subscriber')
+
+
+def track_array(centers, stamp, frame=b'map'):
+    """The bytes of an ObstacleTrackArray with a sphere of radius 1 m at each centre."""
+    body = struct.pack('<13d', 1, 1, 1, 2, 2, 2, 0, 0, 0, 1, 0, 0, 0) + struct.pack('<2d', 0, 0)
+    header = struct.pack('<IIII', 0, stamp.secs, stamp.nsecs, len(frame)) + frame + struct.pack('<I', len(centers))
+    return header + b''.join(struct.pack('<i3d', i, *center) + body for i, center in enumerate(centers))
+
+
+def process_of(node):
+    """Process id of a node."""
+    uri = rosgraph.Master('/bad_input').lookupNode(node)
+    return xmlrpc.client.ServerProxy(uri).getPid('/bad_input')[2]
+
+
+def memory_of(pid):
+    """Resident memory [MB]."""
+    with open('/proc/%d/statm' % pid) as file:
+        return int(file.read().split()[1]) * os.sysconf('SC_PAGE_SIZE') / 1e6
+
+
+def processor_time_of(pid):
+    """[s], in user and kernel mode."""
+    with open('/proc/%d/stat' % pid) as file:
+        fields = file.read().rsplit(')', 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+
+def flood(seconds, rate, topics):
+    """Publishes bad messages on each topic; returns the rate that was reached [Hz]."""
+    command = ['rosrun', 'swarm_planner', 'flood', str(seconds), str(rate)] + list(topics)
+    return float(subprocess.run(command, stdout=subprocess.PIPE, check=True, timeout=120).stdout)
