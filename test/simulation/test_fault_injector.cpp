@@ -135,10 +135,15 @@ TEST(FaultInjector, SetpointsAreKeptFromTheirVehicleAlone) {
   }
 }
 
-/// A vehicle that is on its way along x at 2 m/s for good.
-QuadSimulator flyingVehicle() {
+QuadSimulator hoveringVehicle() {
   QuadSimulator vehicle(twoUavs().parameters, Vector3::Zero(), 0, 1);
   vehicle.resetClock(0.0);
+  return vehicle;
+}
+
+/// A vehicle that is on its way along x at 2 m/s for good.
+QuadSimulator flyingVehicle() {
+  QuadSimulator vehicle = hoveringVehicle();
   SetpointTrajectory trajectory;
   for (int i = 0; i <= 200; ++i) {
     Setpoint point;
@@ -181,7 +186,7 @@ TEST(FaultInjector, APushChangesTheVelocityOnce) {
   FaultInjection push = fault(FaultKind::kPush, 3.0);
   push.duration = 0.0;
   FaultInjector injector = with(push);
-  QuadSimulator vehicle = flyingVehicle();
+  QuadSimulator vehicle = hoveringVehicle();
   fly(vehicle, 1.99, injector);
   const Vector3 before = vehicle.state().v;
   fly(vehicle, 2.0, injector);
@@ -194,7 +199,7 @@ TEST(FaultInjector, APushChangesTheVelocityOnce) {
 
 TEST(FaultInjector, WindBlowsAVehicleOffItsCourseUntilItEnds) {
   FaultInjector injector = with(fault(FaultKind::kWind, 5.0));
-  QuadSimulator vehicle = flyingVehicle();
+  QuadSimulator vehicle = hoveringVehicle();
   fly(vehicle, 1.99, injector);
   EXPECT_LT(vehicle.trackingError(), 0.05);
   fly(vehicle, 4.99, injector);
