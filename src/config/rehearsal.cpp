@@ -89,6 +89,33 @@ FaultInjection drawFault(double at, const Scenario& scenario, UniformRandom& ran
   return fault;
 }
 
+bool isOfTracks(FaultKind kind) { return kind == FaultKind::kTracksLost || kind == FaultKind::kTracksFlicker; }
+
+bool isLie(FaultKind kind) {
+  return kind == FaultKind::kOdometryFrozen || kind == FaultKind::kOdometryJump || kind == FaultKind::kOdometryDrift;
+}
+
+/// Pairs that nobody could cope with. Two outages of tracks in a row last longer than tracks are remembered; a planner
+/// that takes over has nothing but odometry and tracks to go by.
+bool mayCoincide(FaultKind a, FaultKind b) {
+  if (isOfTracks(a) && isOfTracks(b)) return false;
+  const FaultKind other = a == FaultKind::kPlannerDead ? b : a;
+  const bool takeover = a == FaultKind::kPlannerDead || b == FaultKind::kPlannerDead;
+  return !takeover || !(isOfTracks(other) || isLie(other));
+}
+
+void addFault(double at, Scenario& scenario, UniformRandom& random) {
+  const auto fits = [&scenario](const FaultInjection& fault) {
+    return std::all_of(scenario.faults.begin(), scenario.faults.end(), [&fault](const FaultInjection& earlier) {
+      const bool is_over = earlier.at + earlier.duration + kCompanionDelay < fault.at;
+      return is_over || mayCoincide(earlier.kind, fault.kind);
+    });
+  };
+  FaultInjection fault = drawFault(at, scenario, random);
+  while (!fits(fault)) fault = drawFault(at, scenario, random);
+  scenario.faults.push_back(fault);
+}
+
 }  // namespace
 
 Workspace rehearsalField(int uavs) {
@@ -120,9 +147,8 @@ Scenario rehearsal(int uavs, double duration, std::uint64_t seed) {
                         {"pair_distance", 1.5}, {"tracking_margin", 0.8},  {"pair_margin", 1.6},
                         {"tracking_error", 0.6}};
   for (double at = kFirstFault; at < duration - kQuietEnd; at += random.real(kLeastGap, kMostGap)) {
-    scenario.faults.push_back(drawFault(at, scenario, random));
-    if (random.real(0.0, 1.0) >= kCompanionShare) continue;
-    scenario.faults.push_back(drawFault(at + random.real(0.0, kCompanionDelay), scenario, random));
+    addFault(at, scenario, random);
+    if (random.real(0.0, 1.0) < kCompanionShare) addFault(at + random.real(0.0, kCompanionDelay), scenario, random);
   }
   return scenario;
 }

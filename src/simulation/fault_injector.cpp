@@ -7,6 +7,11 @@
 #include <stdexcept>
 
 namespace swarm_planner {
+namespace {
+
+constexpr double kBraking = 3.0;  // of a vehicle that ignores its setpoints, as autopilots do it [m/s^2]
+
+}  // namespace
 
 FaultInjector::FaultInjector(const Mission& mission, std::uint64_t seed)
     : scenario_faults_(mission.scenario.faults),
@@ -115,7 +120,7 @@ void FaultInjector::disturb(std::size_t uav, QuadSimulator& vehicle) {
       vehicle.push(fault.magnitude * fault.direction);
       fault.done = true;
     } else if (fault.kind == FaultKind::kSetpointsIgnored) {
-      vehicle.holdPosition();
+      vehicle.brake(kBraking);
       fault.done = true;
     }
   }

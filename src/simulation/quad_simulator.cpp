@@ -58,7 +58,7 @@ void QuadSimulator::setClock(double t) {
 
 void QuadSimulator::resetClock(double t) {
   setClock(t);
-  holdPosition();
+  setpoints_.hold(state_.p);
 }
 
 void QuadSimulator::setDisturbance(const Vector3& acceleration) {
@@ -69,6 +69,26 @@ void QuadSimulator::setDisturbance(const Vector3& acceleration) {
 void QuadSimulator::push(const Vector3& dv) {
   if (!dv.allFinite()) throw std::invalid_argument("QuadSimulator: the push is not finite");
   state_.v += dv;
+}
+
+void QuadSimulator::brake(double deceleration) {
+  constexpr int kPoints = 20;
+  setpoints_.hold(state_.p);
+  const double speed = state_.v.norm();
+  const double duration = speed / deceleration;
+  if (duration < kPoints * 1e-3) return;
+  SetpointTrajectory stop;
+  stop.epoch = time_;
+  for (int i = 0; i <= kPoints; ++i) {
+    const double left = 1.0 - static_cast<double>(i) / kPoints;  // of the speed
+    Setpoint point;
+    point.time_from_start = duration * (1.0 - left);
+    point.p = state_.p + 0.5 * duration * (1.0 - left * left) * state_.v;
+    point.v = left * state_.v;
+    point.a = -(deceleration / speed) * state_.v;
+    stop.points.push_back(point);
+  }
+  setpoints_.receive(stop, time_);
 }
 
 Vector3 QuadSimulator::acceleration() const {

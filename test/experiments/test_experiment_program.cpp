@@ -88,6 +88,33 @@ TEST_F(ExperimentProgramTest, WithoutAvoidanceTheCollisionIsSeen) {
   EXPECT_NE(out_.str().find("left too close to right"), std::string::npos) << out_.str();
 }
 
+TEST_F(ExperimentProgramTest, TellsWhatBecameOfInjectedFaults) {
+  const std::string file = write(
+      "faulty.yaml", std::string(kScenario) + "faults:\n  - {kind: odometry_lost, uav: left, at: 2, duration: 2}\n");
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"fly", file, "--json", json_file}), kExperimentDone) << err_.str();
+  const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+  ASSERT_EQ(json["faults"].size(), 1u);
+  EXPECT_EQ(json["faults"][0]["kind"].as<std::string>(), "odometry_lost");
+  EXPECT_EQ(json["faults"][0]["reported"].as<int>(), 1);
+  EXPECT_EQ(json["faults"][0]["recovered"].as<int>(), 1);
+  EXPECT_LT(json["worst_recovery_s"].as<double>(), 2.0);
+  EXPECT_EQ(json["fault_misses"].size(), 0u);
+  EXPECT_FALSE(json["rehearsal"]);
+  EXPECT_NE(out_.str().find("odometry_lost"), std::string::npos) << out_.str();
+}
+
+TEST_F(ExperimentProgramTest, RehearsesForAsLongAsItIsTold) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"rehearse", "--hours", "0.025", "--uavs", "3", "--json", json_file}), kExperimentDone) << err_.str();
+  const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+  EXPECT_EQ(json["uavs"].as<int>(), 3);
+  EXPECT_NEAR(json["mission_time_s"].as<double>(), 90.0, 1e-6);
+  EXPECT_GE(json["rehearsal"]["goals_reached"].as<int>(), 6);
+  EXPECT_GT(json["rehearsal"]["resident_mb"]["end"].as<double>(), 1.0);
+  EXPECT_GE(json["faults"].size(), 5u);
+}
+
 TEST_F(ExperimentProgramTest, TheCsvFilesBearTheReportOut) {
   const std::string json_file = directory_.file("result.json");
   const std::string csv = directory_.file("new/csv");

@@ -163,6 +163,7 @@ TEST_F(QuadSimulatorTest, ComesBackAfterAGust) {
   quad.advanceTo(8.0);
   EXPECT_LT((quad.state().p - start_).norm(), 0.01);
   EXPECT_THROW(quad.setDisturbance(Vector3(std::nan(""), 0.0, 0.0)), std::invalid_argument);
+  EXPECT_THROW(quad.push(Vector3(std::nan(""), 0.0, 0.0)), std::invalid_argument);
 }
 
 TEST_F(QuadSimulatorTest, GustsShakeAHoveringVehicleAsLinearTheoryPredicts) {

@@ -16,7 +16,7 @@ enum class FaultKind {
   kOdometryDrift,      ///< the same, growing from zero at the magnitude's rate [m/s]
   kOdometryNotFinite,  ///< its position is not a number
   kSetpointsLost,      ///< no setpoints reach the vehicle: it flies the last trajectory to its end
-  kSetpointsIgnored,   ///< the vehicle holds the place where the fault finds it
+  kSetpointsIgnored,   ///< the vehicle brakes and hovers
   kPush,               ///< a horizontal kick: its velocity changes by the magnitude [m/s] at once
   kWind,               ///< horizontal wind of the magnitude [m/s] blows it off course
   kTracksLost,         ///< no obstacle tracks arrive

@@ -45,8 +45,9 @@ class QuadSimulator {
   /// A kick: the velocity changes by `dv` [m/s] at once. Throws std::invalid_argument if it is not finite.
   void push(const Vector3& dv);
 
-  /// Forgets every trajectory and holds the present position until a new one takes over.
-  void holdPosition() { setpoints_.hold(state_.p); }
+  /// Forgets every trajectory, brakes along its way at `deceleration` [m/s^2] > 0 and hovers there until a new one
+  /// takes over.
+  void brake(double deceleration);
 
   double time() const { return time_; }
   const QuadState& state() const { return state_; }
