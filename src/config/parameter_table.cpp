@@ -127,6 +127,17 @@ void addLimits(TableBuilder& table) {
       "false: measurements count as of the present, and plans start from them; for negative controls only");
 }
 
+void addLanding(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.number(
+      "land_speed", "m/s", Range::aboveUpTo(0.0, 5.0), [](P& p) -> double& { return p.landing.speed; },
+      "speed of the descent; at most half of max_speed is used");
+  table.number(
+      "ground_height", "m", Range::finite(), [](P& p) -> double& { return p.landing.ground_height; },
+      "z of a landed UAV's centre in the planning frame; a UAV that is lower already lands where it is");
+}
+
 void addTime(TableBuilder& table) {
   using P = Parameters;
   table.section(kPlannerFile, true);
@@ -331,6 +342,7 @@ const std::vector<ParameterEntry>& parameterEntries() {
   static const std::vector<ParameterEntry> kEntries = [] {
     TableBuilder table;
     addLimits(table);
+    addLanding(table);
     addTime(table);
     addCost(table);
     addSqp(table);

@@ -21,7 +21,7 @@ std::string missingNames(const SwarmPlanner& planner, const std::vector<UavInput
   std::string names;
   int missing = 0;
   for (std::size_t uav = 0; uav < inputs.size(); ++uav) {
-    if (inputs[uav].received) continue;
+    if (inputs[uav].received || planner.mode(uav) == FlightMode::kAbsent) continue;
     if (++missing <= kMostNames) names += (missing > 1 ? ", " : "") + planner.uavName(uav);
   }
   if (missing > kMostNames) names += " and " + std::to_string(missing - kMostNames) + " more";
@@ -66,6 +66,7 @@ void toMessage(const SwarmPlanner& planner, const CycleContext& context, const s
     to.state = static_cast<std::uint8_t>(from.state);
     to.reason = reasons[uav];
     to.alarm = isAlarm(from.reason);
+    to.commanded = isCommanded(from.reason);
     to.refusal = from.refusal == CheckReason::kAccepted ? "" : checkReasonText(from.refusal);
     to.planned = from.planned;
     to.solve_time = from.solve_time;

@@ -6,6 +6,21 @@
 
 namespace swarm_planner {
 
+bool isCommanded(Reason reason) {
+  switch (reason) {
+    case Reason::kHeld:
+    case Reason::kSeeksLandingSite:
+    case Reason::kFliesToLandingSite:
+    case Reason::kDescending:
+    case Reason::kLanded:
+    case Reason::kStopped:
+    case Reason::kAbsent:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool isAlarm(Reason reason) { return reason == Reason::kNoSafePlan; }
 
 const char* reasonText(Reason reason) {
@@ -38,6 +53,20 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kHeld:
+      return "holds by command";
+    case Reason::kSeeksLandingSite:
+      return "lands by command: looks for a free landing site";
+    case Reason::kFliesToLandingSite:
+      return "lands by command: flies to above its landing site";
+    case Reason::kDescending:
+      return "lands by command: descends";
+    case Reason::kLanded:
+      return "landed";
+    case Reason::kStopped:
+      return "stopped by command";
+    case Reason::kAbsent:
+      return "not in the swarm: it is not planned for, others avoid it";
   }
   return "unknown reason";
 }

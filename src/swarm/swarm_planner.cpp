@@ -9,6 +9,7 @@
 
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
+#include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -50,6 +51,7 @@ class SwarmPlanner::Impl {
         uavs(mission.scenario.uavs.size()),
         tracks(parameters.input.track_timeout, maxObstacles(mission)),
         surroundings(parameters, uavs.size(), maxObstacles(mission)),
+        director(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -72,6 +74,29 @@ class SwarmPlanner::Impl {
     for (UavRecord& uav : uavs) uav.reset();
   }
 
+  CommandAnswer command(std::size_t i, FlightCommand command) {
+    FlightTask& task = uavs[i].task;
+    const FlightMode before = task.mode;
+    const FlightTransition change = transition(before, eventOf(command, activityBeside(i)));
+    if (change.answer == FlightAnswer::kDone) enter(i, change.mode);
+    const bool lost = report.uavs[i].state == UavState::kLost;
+    const Delay delay = !report.started ? Delay::kRunNotStarted : lost ? Delay::kOdometryLost : Delay::kNone;
+    return answerTo(command, before, change, delay);
+  }
+
+  void enter(std::size_t i, FlightMode mode) {
+    UavRecord& uav = uavs[i];
+    if (uav.task.mode == FlightMode::kFlying) uav.pauseReference(report.epoch);
+    const bool foreign = mode == FlightMode::kAbsent;
+    if (uav.foreign && !foreign) {
+      uav.motions.clear();
+      uav.deviation.setZero();
+    }
+    if (foreign) uav.planned = false;
+    uav.foreign = foreign;
+    uav.task.enter(mode);
+  }
+
   void plan(const Snapshot& snapshot, double epoch, double budget) {
     const Stopwatch stopwatch;
     ++report.cycle;
@@ -80,10 +105,7 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
-    if (!report.started && mayStart(snapshot)) {
-      report.started = true;
-      report.time_zero = epoch;
-    }
+    if (!report.started && mayStart()) start(epoch);
     if (report.started) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
@@ -103,29 +125,56 @@ class SwarmPlanner::Impl {
       uav_report.obstacle_clearance = uav_report.pair_distance = kInfinity;
       uav_report.state = report.started && judged[i] != Reason::kNone ? UavState::kLost : UavState::kHolding;
       uav_report.reason = judged[i];
-      if (judged[i] == Reason::kNone && !report.started) {
-        uav_report.reason = parameters.input.autostart ? Reason::kWaitingForOthers : Reason::kWaitingForStart;
+      const FlightTask& task = uavs[i].task;
+      if (judged[i] != Reason::kNone) continue;
+      if (!report.started && !uavs[i].foreign) {
+        const bool commanded = parameters.input.autostart || isPlannedFor(task.mode);
+        uav_report.reason = commanded ? Reason::kWaitingForOthers : Reason::kWaitingForStart;
+      } else if (!isPlannedFor(task.mode)) {
+        reportTask(task, uav_report);
       }
     }
   }
 
-  bool mayStart(const Snapshot& snapshot) const {
-    const bool all_arrived = snapshot.uavs.size() == uavs.size() &&
-                             std::all_of(judged.begin(), judged.end(), [](Reason r) { return r == Reason::kNone; });
-    return parameters.input.autostart && all_arrived;
+  /// Whether the odometry of every UAV of the swarm has arrived, and some UAV is to fly.
+  bool mayStart() const {
+    bool some = false;
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].foreign) continue;
+      if (judged[i] != Reason::kNone) return false;
+      some = some || parameters.input.autostart || isPlannedFor(uavs[i].task.mode);
+    }
+    return some;
+  }
+
+  void start(double epoch) {
+    report.started = true;
+    report.time_zero = epoch;
+    if (!parameters.input.autostart) return;
+    for (UavRecord& uav : uavs) uav.task.mode = transition(uav.task.mode, FlightEvent::kRunStarts).mode;
+  }
+
+  /// What the swarm does, but for UAV i.
+  SwarmActivity activityBeside(std::size_t i) const {
+    if (!report.started) return SwarmActivity::kWaiting;
+    for (std::size_t other = 0; other < uavs.size(); ++other) {
+      if (other != i && uavs[other].task.mode == FlightMode::kFlying) return SwarmActivity::kFlying;
+    }
+    return SwarmActivity::kHolding;
   }
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
+    director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
-        if (judged[i] != Reason::kNone) return;
+        if (judged[i] != Reason::kNone || !isPlannedFor(uavs[i].task.mode)) return;
         // Whatever the budget, somebody makes progress.
         if (planned.exchange(true) && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
@@ -140,16 +189,24 @@ class SwarmPlanner::Impl {
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
-    if (uav.reference_pending) uav.reference.time_zero = epoch;
-    uav.reference_pending = false;
+    const FlightMode mode = uav.task.mode;
+    if (uav.reference_pending && mode == FlightMode::kFlying) {
+      uav.reference.time_zero = epoch;
+      uav.reference_pending = false;
+    }
     const bool measured = judged[i] == Reason::kNone;
-    if (measured) uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (measured && !isPlannedFor(mode)) {
+      uav.watch(snapshot.uavs[i], epoch, parameters);
+    } else if (measured) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters);
+      director.direct(epoch, snapshot.uavs[i], uav);
+    }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
       surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
     }
-    if (measured) surroundings.setPlanning(i, uav.start);
+    if (measured && isPlannedFor(mode)) surroundings.setPlanning(i, uav.start);
   }
 
   /// There is no time to plan for the UAV.
@@ -158,6 +215,7 @@ class SwarmPlanner::Impl {
     report.uavs[i].planned = uavs[i].planned;
     report.uavs[i].state = UavState::kFallback;
     report.uavs[i].reason = Reason::kOverrun;
+    reportTask(uavs[i].task, report.uavs[i]);
   }
 
   /// Whose turn came first of those that missed it comes first in the next cycle, so that nobody misses it for ever.
@@ -173,6 +231,7 @@ class SwarmPlanner::Impl {
 
   TrackMemory tracks;
   Surroundings surroundings;
+  FlightDirector director;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
@@ -212,6 +271,12 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   if (!(start >= 0.0) || !std::isfinite(start)) throw std::invalid_argument("start must be finite and >= 0");
   if (!(speed >= 0.0) || !std::isfinite(speed)) throw std::invalid_argument("speed must be finite and >= 0");
   impl_->uavs[uav].setReference(path, start, speed);
+}
+
+CommandAnswer SwarmPlanner::command(std::size_t uav, FlightCommand command) { return impl_->command(uav, command); }
+FlightMode SwarmPlanner::mode(std::size_t uav) const { return impl_->uavs[uav].task.mode; }
+void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
+  if (foreign != impl_->uavs[uav].foreign) command(uav, foreign ? FlightCommand::kLeave : FlightCommand::kJoin);
 }
 
 void SwarmPlanner::reset() { impl_->reset(); }

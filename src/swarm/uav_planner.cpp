@@ -55,18 +55,39 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   reference = MovingTarget();
   reference.path = ReferencePath(path);
   reference.start = arc_length;
+  given_start = arc_length;
   reference.speed = speed;
   reference_pending = true;
   on_reference = false;
+}
+
+void UavRecord::pauseReference(double t) {
+  if (!reference_pending) reference.start = reference.at(t).arc_length;
+  reference_pending = true;
 }
 
 void UavRecord::reset() {
   motions.clear();
   planned = false;
   deviation.setZero();
+  task.enter(task.mode);
+  reference.start = given_start;
   reference_pending = true;
   on_reference = false;
   active.count = 0;
+}
+
+void UavRecord::watch(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
+  start = predictFromMeasurement(measurement, epoch);
+  Trajectory drift;
+  coastingPlan(start, epoch, parameters.time.sampling_time, drift);
+  StopManoeuvre stop;
+  planStop(drift.knots.back(), drift.dt, FlightBounds(parameters, nullptr), stop);
+  CommittedMotion motion;
+  motion.assign(drift, stop);
+  motions.clear();
+  motions.commit(motion);
+  planned = false;
 }
 
 void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
@@ -98,6 +119,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
     : parameters_(parameters),
       limits_(makeCheckLimits(parameters, workspace ? &*workspace : nullptr)),
+      workspace_floor_(limits_.bounds.workspace.min.z()),
       sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
@@ -110,10 +132,24 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
   surroundings.collect(uav, check_);
-  const KinematicState committed = record.motions.flown().at(epoch);
-  committed_ = committed.p;
+  committed_ = record.motions.flown().at(epoch).p;
   has_proposal_ = false;
+  flies_whole_plan_ = false;
+  setFloor(record.task);
+  if (rest(uav, epoch, record, surroundings)) {
+    poseProblem(uav, epoch, record, surroundings);
+  } else {
+    report.reason = flyOn(uav, epoch, record, surroundings, report);
+  }
+  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
+  fillReport(epoch, record, report);
+  report.solve_time = stopwatch.elapsed();
+}
 
+Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                         UavReport& report) {
+  const KinematicState committed = record.motions.flown().at(epoch);
+  record.task.is_quickest_stop = false;
   CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
   // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on
   // from.
@@ -122,16 +158,39 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
     record.start = committed;
     verdict = propose(uav, epoch, record, surroundings, report);
   }
-  if (verdict.accepted()) {
-    record.motions.commit(motion_);
-    record.planned = true;
-    report.reason = report.stays ? Reason::kPlanRefused : Reason::kNone;
-  } else {
-    report.reason = fallBack(uav, epoch, record, surroundings);
+  if (!verdict.accepted()) return fallBack(uav, epoch, record, surroundings);
+  record.motions.commit(motion_);
+  record.planned = true;
+  return report.stays ? Reason::kPlanRefused : Reason::kNone;
+}
+
+bool UavPlanner::rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
+  FlightTask& task = record.task;
+  if (task.mode == FlightMode::kLanded) {
+    record.motions.goOn(epoch);
+    return true;
   }
-  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
-  fillReport(epoch, record, report);
-  report.solve_time = stopwatch.elapsed();
+  if (task.mode != FlightMode::kStopped || !record.planned) return false;
+  if (task.is_quickest_stop && !record.motions.newestIsLost()) {
+    record.motions.goOn(epoch);
+    const CommittedMotion& motion = record.motions.newest();
+    return checkClearance(motion, motion.start(), limits_, check_).accepted();
+  }
+  const KinematicState x = record.motions.flown().at(epoch);
+  StopManoeuvre stop;
+  planStop(x, problem_.dt, relieveBounds(limits_.bounds, x, kBoundSlack), stop);
+  stop_.assignStop(epoch, stop);
+  task.is_quickest_stop = stop.within_bounds && surroundings.isWithinArea(uav, stop_) &&
+                          checkClearance(stop_, committed_, limits_, check_).accepted();
+  if (task.is_quickest_stop) record.motions.commit(stop_);
+  return task.is_quickest_stop;
+}
+
+void UavPlanner::setFloor(const FlightTask& task) {
+  double floor = workspace_floor_;
+  if (task.below_workspace) floor = std::min(floor, task.floor - parameters_.limits.tracking_margin);
+  limits_.bounds.workspace.min.z() = floor;
+  problem_.bounds.workspace.min.z() = floor;
 }
 
 CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
@@ -236,13 +295,15 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   report.pair_distance = clearance.pair;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();
-  report.lag = problem_.targets[0].arc_length - record.progress;
-  if (report.reason == Reason::kNone && !report.solved) report.reason = Reason::kSolverFailed;
+  report.lag = problem_.targets[0].arc_length - problem_.progress;
+  const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
+  if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   if (report.reason == Reason::kNone && record.deviation.norm() > parameters_.limits.tracking_margin) {
     report.reason = Reason::kStraying;
   }
   const bool on_new_plan = report.reason == Reason::kNone || report.reason == Reason::kStraying;
   report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
+  reportTask(record.task, report);
 }
 
 void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
@@ -256,17 +317,19 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const ReferencePath& path = record.reference.path;
-  const PathPoint foot = record.on_reference ? path.nearest(record.start.p, record.progress)
-                                             : path.nearest(record.start.p, 0.0, kInfinity);
-  record.progress = foot.arc_length;
-  record.on_reference = true;
+  const bool on_mission = record.task.mode == FlightMode::kFlying;
+  const MovingTarget& target = on_mission ? record.reference : record.task.target;
+  bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
+  double& progress = on_mission ? record.progress : record.task.target_progress;
+  progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
+                     : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
+  on_path = true;
   problem_.epoch = epoch;
   problem_.start = record.start;
-  problem_.path = &path;
-  problem_.progress = record.progress;
+  problem_.path = &target.path;
+  problem_.progress = progress;
   for (std::size_t k = 0; k <= kHorizon; ++k) {
-    problem_.targets[k] = record.reference.at(epoch + static_cast<double>(k) * problem_.dt);
+    problem_.targets[k] = target.at(epoch + static_cast<double>(k) * problem_.dt);
   }
   surroundings.collect(uav, problem_);
 }

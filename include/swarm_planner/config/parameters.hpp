@@ -49,6 +49,12 @@ struct LimitParameters {
   bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 
+/// How UAVs land.
+struct LandingParameters {
+  double speed = 0.5;          ///< of the descent [m/s]
+  double ground_height = 0.0;  ///< z of a landed UAV's centre in the planning frame [m]
+};
+
 /// Sampling of the horizon and the cycle.
 struct TimeParameters {
   double sampling_time = 0.3;  ///< dt of the horizon [s]; unset: by rule
@@ -128,6 +134,7 @@ struct SimulationParameters {
 struct Parameters {
   VehicleParameters vehicle;
   LimitParameters limits;
+  LandingParameters landing;
   TimeParameters time;
   CostParameters cost;
   SqpParameters sqp;

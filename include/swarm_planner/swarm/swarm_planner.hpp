@@ -10,6 +10,7 @@
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
+#include "swarm_planner/swarm/flight_commands.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 
@@ -58,9 +59,18 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kHeld,               ///< the mode's own, as are those that follow: nothing is amiss
+  kSeeksLandingSite,
+  kFliesToLandingSite,
+  kDescending,
+  kLanded,
+  kStopped,
+  kAbsent,
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
+/// Whether it tells of a command that is carried out, not of trouble.
+bool isCommanded(Reason reason);
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
 /// The same, with why the check refused the solver's plan where that is what led there.
@@ -125,9 +135,17 @@ class SwarmPlanner {
 
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` at least one finite point,
   /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
+  /// While the UAV does not fly its mission, the time zero waits until it does.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
 
-  /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.
+  /// What a UAV is to do from the next cycle on. Any command in any state; call it between cycles.
+  CommandAnswer command(std::size_t uav, FlightCommand command);
+  FlightMode mode(std::size_t uav) const;
+  /// Whether nobody plans for the UAV: others avoid it from its odometry. Its mode follows.
+  void setForeign(std::size_t uav, bool foreign);
+
+  /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later, and
+  /// so do the UAVs' modes.
   void reset();
 
  private:

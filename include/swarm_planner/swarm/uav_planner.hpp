@@ -8,6 +8,7 @@
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/generated_solver.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
+#include "swarm_planner/swarm/flight_task.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -27,12 +28,19 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  ActiveRows active;  ///< of the last QP, at `active_epoch`
+  FlightTask task;           ///< what it is to do, as commands left it
+  bool foreign = false;      ///< nobody plans for it and no setpoints go to it; others avoid it
+  double given_start = 0.0;  ///< of the reference as it was given: pauses move reference.start on [m]
+  ActiveRows active;         ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
-  /// Forgets all motions; the reference starts anew.
+  /// The target stays where it is at `t` [s], until its time zero is set anew.
+  void pauseReference(double t);
+  /// Forgets all motions, and with them what it holds at; the reference starts anew. Its mode stays.
   void reset();
+  /// Nobody plans for the UAV: it is taken to fly on as it was measured.
+  void watch(const UavMeasurement& measurement, double epoch, const Parameters& parameters);
   /// Takes the measurement in: what the UAV flies, and where it will be at `epoch`.
   void predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters);
 };
@@ -50,6 +58,13 @@ class UavPlanner {
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
  private:
+  /// A new plan, or what flies without one; the reason why it does.
+  Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings, UavReport& report);
+  /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
+  /// if it is not, or there is none: a plan is needed then.
+  bool rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
+  /// Bounds of the workspace for a UAV that may be below it.
+  void setFloor(const FlightTask& task);
   /// Solves from record.start and leaves the motion of the longest step towards the solution that passes the check.
   CheckVerdict propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                        UavReport& report);
@@ -64,6 +79,7 @@ class UavPlanner {
 
   const Parameters& parameters_;
   CheckLimits limits_;
+  double workspace_floor_;  ///< [m]
   UavProblem problem_;
   SqpSolver sqp_;
   CheckSurroundings check_;
