@@ -11,8 +11,9 @@ constexpr double kAtSite = 0.2;              // from the column of its site a UA
 constexpr double kOffSite = 1.0;             // from it a UAV has been pushed out of it [m]
 constexpr double kSlow = 0.3;                // a UAV that moves less hardly moves [m/s]
 constexpr double kQuietTime = 2.0;           // that a UAV hardly moves before that counts [s]
+constexpr double kPointPath = 1e-3;          // length of a path that is a point with a direction [m]
 constexpr double kPushedAway = 0.2;          // from its place a UAV holds at another [m]
-constexpr double kAtGround = 0.05;           // of what is flown to the ground, a landing's end [m]
+constexpr double kAtGround = 0.1;            // of what is flown to the ground, a landing's end [m]
 constexpr double kNearGround = 0.15;         // of the UAV, as measured [m]
 constexpr double kStandsWithin = 1.0;        // of where it comes to rest a slow UAV stands [m]
 constexpr std::size_t kChecksPerCycle = 64;  // of sites that were given
@@ -83,54 +84,60 @@ Vector3 FlightDirector::placeOfRest(double epoch, const UavRecord& record, bool 
   return place;
 }
 
+bool FlightDirector::brake(double epoch, UavRecord& record) const {
+  FlightTask& task = record.task;
+  if (task.at_rest) return true;
+  task.place = placeOfRest(epoch, record, task.mode == FlightMode::kStopped);
+  // Cost (16) holds a UAV to its path across it, by alpha and beta, and hardly along it: a path of next to no length
+  // across the way that it comes.
+  const Vector3& v = record.start.v;
+  const bool comes_level = v.head<2>().norm() >= std::abs(v.z());
+  task.follow(task.place, task.place + kPointPath * (comes_level ? Vector3::UnitZ() : Vector3::UnitX()), 0.0, epoch);
+  task.placed = true;
+  task.at_rest = record.start.v.norm() < kSlow;
+  task.quiet_since = task.next_search = epoch;
+  return false;
+}
+
 void FlightDirector::hold(double epoch, UavRecord& record) const {
   FlightTask& task = record.task;
-  if (!task.placed) {
-    task.place = placeOfRest(epoch, record, task.mode == FlightMode::kStopped);
-    task.quiet_since = epoch;
-  } else if (epoch - task.quiet_since > kQuietTime && (record.start.p - task.place).norm() > kPushedAway) {
-    // Something keeps it from its place; pressing on would only keep UAVs that share one in motion.
-    task.place = record.start.p;
-  } else {
-    return;
-  }
+  if (!brake(epoch, record)) return;
+  const bool is_kept_away = (record.start.p - task.place).norm() > kPushedAway;
+  if (epoch - task.quiet_since < kQuietTime || !is_kept_away) return;
+  // Pressing on would only keep UAVs that share a place in motion.
+  task.place = record.start.p;
   task.follow(task.place, task.place, 0.0, epoch);
-  task.placed = true;
 }
 
 void FlightDirector::land(double epoch, const UavMeasurement& measured, UavRecord& record) const {
   FlightTask& task = record.task;
-  if (!task.placed) {
-    // Whatever stands beside it: who is on the ground stays there.
-    const bool is_on_ground = measured.p.z() < parameters_.landing.ground_height + kNearGround;
-    if (is_on_ground && measured.v.norm() < kSlow) {
-      task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
-      return;
-    }
-    waitForSite(epoch, placeOfRest(epoch, record, false), task);
+  // Whatever stands beside it: who is on the ground already stays there.
+  const bool is_on_ground = measured.p.z() < parameters_.landing.ground_height + kNearGround;
+  if (!task.placed && is_on_ground && measured.v.norm() < kSlow) {
+    task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
+    return;
   }
-  if (task.phase == LandingPhase::kApproach) {
-    const bool is_above = horizontalDistance(record.start.p, task.site) < kAtSite;
-    if (is_above && record.start.v.head<2>().norm() < kSlow) {
-      const Vector3 above(task.site.x(), task.site.y(), std::max(record.start.p.z(), task.site.z()));
-      task.follow(above, task.site, std::min(parameters_.landing.speed, approach_speed_), epoch);
-      task.phase = LandingPhase::kDescending;
-      task.quiet_since = epoch;
-    } else if (epoch - task.quiet_since > kQuietTime) {
-      waitForSite(epoch, record.start.p, task);  // it does not get there: another one, from where it is
-    }
-  } else if (task.phase == LandingPhase::kDescending) {
+  if (!brake(epoch, record) || task.phase == LandingPhase::kBraking) return;
+  const bool is_above = horizontalDistance(record.start.p, task.site) < kAtSite;
+  if (task.phase == LandingPhase::kDescending) {
     descend(epoch, measured, record);
+  } else if (is_above && record.start.v.head<2>().norm() < kSlow) {
+    const double height = std::max(record.start.p.z(), task.site.z());
+    task.follow(Vector3(task.site.x(), task.site.y(), height), task.site, descentSpeed(), epoch);
+    task.phase = LandingPhase::kDescending;
+    task.quiet_since = epoch;
+  } else if (epoch - task.quiet_since > kQuietTime) {
+    giveUpSite(epoch, record);  // it does not get there: another one, from where it is
+  } else {
+    task.leadFrom(record.start.p, epoch);
   }
 }
 
-void FlightDirector::waitForSite(double epoch, const Vector3& place, FlightTask& task) const {
-  task.place = place;
-  task.placed = true;
+void FlightDirector::giveUpSite(double epoch, UavRecord& record) {
+  FlightTask& task = record.task;
   task.phase = LandingPhase::kBraking;
-  task.quiet_since = epoch;
+  task.at_rest = false;
   task.next_search = epoch;
-  task.follow(place, place, 0.0, epoch);
 }
 
 void FlightDirector::descend(double epoch, const UavMeasurement& measured, UavRecord& record) const {
@@ -142,16 +149,18 @@ void FlightDirector::descend(double epoch, const UavMeasurement& measured, UavRe
     task.quiet_since = epoch;
     return;
   }
-  if (!record.planned) return;
+  task.leadFrom(record.start.p, epoch);
+  if (!record.planned || measured.v.norm() > kSlow) return;
   const CommittedMotion& motion = record.motions.flown();
-  const double arrival = task.target.time_zero + task.target.path.length() / task.target.speed;
-  const bool ends_on_ground = motion.restingPlace().z() < task.site.z() + kAtGround;
-  const bool is_on_ground = measured.p.z() < task.site.z() + kNearGround;
-  // Ground that is higher than it was said to be: what is flown is down, the UAV cannot follow and does not move.
-  const bool is_held_up = epoch > arrival + kQuietTime && epoch - task.quiet_since > kQuietTime;
-  if (epoch < arrival || !ends_on_ground || !(is_on_ground || is_held_up)) return;
-  if (measured.v.norm() < kSlow) task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
+  const bool is_down = measured.p.z() < task.site.z() + kNearGround;
+  // Ground that is higher than it was said to be: the UAV is to go down and does not move.
+  const bool is_to_descend = motion.at(epoch + kQuietTime).p.z() < measured.p.z() - kAtGround;
+  const bool is_held_up = is_to_descend && epoch - task.quiet_since > kQuietTime;
+  const bool ends_down = motion.restingPlace().z() < task.site.z() + kAtGround;
+  if ((is_down && ends_down) || is_held_up) task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
 }
+
+double FlightDirector::descentSpeed() const { return std::min(parameters_.landing.speed, approach_speed_); }
 
 void FlightDirector::takeColumns(const std::vector<UavRecord>& uavs) {
   for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -176,7 +185,7 @@ void FlightDirector::releaseBlockedSites(double epoch, const std::vector<Reason>
     if (!has_site || judged[next_check_] != Reason::kNone) continue;
     const Vector3& p = uavs[next_check_].start.p;
     if (sites_.canKeep(next_check_, task.site, p.z())) continue;
-    waitForSite(epoch, p, task);
+    giveUpSite(epoch, uavs[next_check_]);
   }
 }
 
@@ -188,7 +197,7 @@ void FlightDirector::assignSites(double epoch, const std::vector<TrackedObstacle
     const FlightTask& task = uavs[i].task;
     if (task.mode != FlightMode::kLanding) continue;
     lands = true;
-    const bool searches = task.placed && task.phase == LandingPhase::kBraking && epoch >= task.next_search;
+    const bool searches = task.at_rest && task.phase == LandingPhase::kBraking && epoch >= task.next_search;
     if (searches && judged[i] == Reason::kNone) waiting_.push_back(i);
   }
   if (!lands) return;
@@ -204,6 +213,7 @@ void FlightDirector::assignSites(double epoch, const std::vector<TrackedObstacle
   for (const std::size_t i : waiting_) {
     FlightTask& task = uavs[i].task;
     const std::optional<Vector3> site = sites_.find(i, task.place, task.floor);
+    task.has_no_site = !site;
     if (site) {
       task.site = *site;
       task.follow(task.place, Vector3(site->x(), site->y(), task.place.z()), approach_speed_, epoch);

@@ -15,7 +15,8 @@ Reason reasonOf(const FlightTask& task) {
     case FlightMode::kHolding:
       return Reason::kHeld;
     case FlightMode::kLanding:
-      if (task.phase == LandingPhase::kBraking) return Reason::kSeeksLandingSite;
+      if (task.phase == LandingPhase::kBraking)
+        return task.has_no_site ? Reason::kNoLandingSite : Reason::kBrakesToLand;
       return task.phase == LandingPhase::kApproach ? Reason::kFliesToLandingSite : Reason::kDescending;
     case FlightMode::kLanded:
       return Reason::kLanded;

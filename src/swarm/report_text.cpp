@@ -9,7 +9,7 @@ namespace swarm_planner {
 bool isCommanded(Reason reason) {
   switch (reason) {
     case Reason::kHeld:
-    case Reason::kSeeksLandingSite:
+    case Reason::kBrakesToLand:
     case Reason::kFliesToLandingSite:
     case Reason::kDescending:
     case Reason::kLanded:
@@ -53,10 +53,12 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kNoLandingSite:
+      return "cannot land: no free landing site within reach; holds and looks again";
     case Reason::kHeld:
       return "holds by command";
-    case Reason::kSeeksLandingSite:
-      return "lands by command: looks for a free landing site";
+    case Reason::kBrakesToLand:
+      return "lands by command: brakes";
     case Reason::kFliesToLandingSite:
       return "lands by command: flies to above its landing site";
     case Reason::kDescending:

@@ -72,7 +72,7 @@ double leastDistanceWhileHolding(bool avoidance, FlightCommand command) {
   PerfectFlight flight(mission);
   flight.cycles(5);
   flight.planner().command(0, command);
-  flight.cycles(70);
+  flight.cycles(90);
   EXPECT_LT(flight.vehicle(0).v.norm(), 0.05) << "it comes to rest again";
   return flight.leastObstacleDistance();
 }

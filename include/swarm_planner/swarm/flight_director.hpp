@@ -31,12 +31,17 @@ class FlightDirector {
  private:
   /// Whether, and how far, the UAV may be below the workspace.
   void lookAtFloor(UavRecord& record) const;
+  /// Moves the place of rest along while the UAV is not slow yet, so that it need not turn back. True from the cycle on
+  /// that follows.
+  bool brake(double epoch, UavRecord& record) const;
   void hold(double epoch, UavRecord& record) const;
   void land(double epoch, const UavMeasurement& measured, UavRecord& record) const;
   void descend(double epoch, const UavMeasurement& measured, UavRecord& record) const;
   /// Where the UAV comes to rest: braking with room, or as quickly as it can.
   Vector3 placeOfRest(double epoch, const UavRecord& record, bool quickest) const;
-  void waitForSite(double epoch, const Vector3& place, FlightTask& task) const;
+  /// Another site is needed, from where the UAV comes to rest.
+  static void giveUpSite(double epoch, UavRecord& record);
+  double descentSpeed() const;  ///< [m/s]
   void takeColumns(const std::vector<UavRecord>& uavs);
   void releaseBlockedSites(double epoch, const std::vector<Reason>& judged, std::vector<UavRecord>& uavs);
 

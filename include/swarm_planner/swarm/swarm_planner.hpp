@@ -59,8 +59,9 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kNoLandingSite,      ///< none is free: it holds and looks again
   kHeld,               ///< the mode's own, as are those that follow: nothing is amiss
-  kSeeksLandingSite,
+  kBrakesToLand,
   kFliesToLandingSite,
   kDescending,
   kLanded,
