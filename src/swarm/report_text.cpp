@@ -38,6 +38,16 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kOdometryFrozen:
+      return "odometry is frozen: its position stays the same while the UAV is to move";
+    case Reason::kOdometryJumps:
+      return "odometry jumps: no flight leads from one position to the next";
+    case Reason::kOdometryBackwards:
+      return "the stamps of odometry go back";
+    case Reason::kOffPlan:
+      return "far off its plan; planned anew from where it is";
+    case Reason::kForeign:
+      return "flown by another system";
   }
   return "unknown reason";
 }

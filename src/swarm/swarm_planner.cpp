@@ -9,6 +9,7 @@
 
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
+#include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -18,27 +19,12 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kLargest = 1e8;  // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
 std::size_t maxObstacles(const Mission& mission) {
   constexpr std::size_t kTracks = 256;
   return std::max(kTracks, mission.scenario.obstacles.size());
-}
-
-/// False for NaN too.
-bool isPlausible(const Vector3& x) { return (x.array().abs() < kLargest).all(); }
-
-/// Why a measurement cannot be planned from; kNone if it can.
-Reason judge(const UavMeasurement& measurement, double now, double timeout) {
-  if (!measurement.received) return Reason::kWaitingForOdometry;
-  if (!isPlausible(measurement.p) || !isPlausible(measurement.v) || !std::isfinite(measurement.stamp)) {
-    return Reason::kOdometryNotFinite;
-  }
-  if (measurement.stamp > now + kClockTolerance) return Reason::kOdometryFromFuture;
-  if (now - measurement.stamp > timeout) return Reason::kOdometryStale;
-  return Reason::kNone;
 }
 
 }  // namespace
@@ -48,6 +34,7 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
+        bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
         tracks(parameters.input.track_timeout, maxObstacles(mission)),
         surroundings(parameters, uavs.size(), maxObstacles(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
@@ -55,14 +42,17 @@ class SwarmPlanner::Impl {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const ScenarioUav& uav = mission.scenario.uavs[i];
       uavs[i].name = uav.name;
+      uavs[i].foreign = uav.external;
+      starts.push_back(uav.start);
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
     order.reserve(uavs.size());
+    foreign_bodies.reserve(uavs.size());
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxObstacles(mission));
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, 2 * uavs.size() + maxObstacles(mission));
     }
   }
 
@@ -90,42 +80,60 @@ class SwarmPlanner::Impl {
 
   const Parameters parameters;
   std::vector<UavRecord> uavs;
+  const FlightBounds bounds;
   CycleReport report;
 
  private:
   void judgeMeasurements(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const UavMeasurement none;
-      judged[i] =
-          judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now, parameters.input.odometry_timeout);
+      judged[i] = uavs[i].monitor.judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now,
+                                        uavs[i].motions, parameters);
       UavReport& uav_report = report.uavs[i];
       uav_report = UavReport();
       uav_report.obstacle_clearance = uav_report.pair_distance = kInfinity;
       uav_report.state = report.started && judged[i] != Reason::kNone ? UavState::kLost : UavState::kHolding;
       uav_report.reason = judged[i];
-      if (judged[i] == Reason::kNone && !report.started) {
+      if (judged[i] == Reason::kNone && uavs[i].foreign) {
+        uav_report.reason = Reason::kForeign;
+      } else if (judged[i] == Reason::kNone && !report.started) {
         uav_report.reason = parameters.input.autostart ? Reason::kWaitingForOthers : Reason::kWaitingForStart;
       }
     }
   }
 
+  /// UAVs that another system flies are not waited for.
   bool mayStart(const Snapshot& snapshot) const {
-    const bool all_arrived = snapshot.uavs.size() == uavs.size() &&
-                             std::all_of(judged.begin(), judged.end(), [](Reason r) { return r == Reason::kNone; });
+    bool all_arrived = snapshot.uavs.size() == uavs.size();
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      all_arrived = all_arrived && (uavs[i].foreign || judged[i] == Reason::kNone);
+    }
     return parameters.input.autostart && all_arrived;
   }
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
+    foreign_bodies.clear();
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      // One that has joined and is not seen is still where it was as a foreign one.
+      if (uavs[i].foreign || (uavs[i].unseen && judged[i] != Reason::kNone && uavs[i].motions.empty())) {
+        addForeign(i, snapshot);
+      }
+    }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].unseen && !uavs[i].motions.empty()) {
+        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
+      }
+    }
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
-        if (judged[i] != Reason::kNone) return;
+        if (!isPlannedFor(i)) return;
         // Whatever the budget, somebody makes progress.
         if (planned.exchange(true) && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
@@ -137,19 +145,40 @@ class SwarmPlanner::Impl {
     noteOverrun();
   }
 
+  bool isPlannedFor(std::size_t i) const { return judged[i] == Reason::kNone && !uavs[i].foreign; }
+
+  /// Tells the surroundings where a UAV is that another system flies. What it was to fly here counts until odometry
+  /// shows it elsewhere, or it has ended.
+  void addForeign(std::size_t i, const Snapshot& snapshot) {
+    UavRecord& uav = uavs[i];
+    const bool seen = judged[i] == Reason::kNone;
+    if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
+    const std::optional<UavMeasurement>& last = uav.monitor.trusted();
+    // Before it is seen first it is where the scenario starts it.
+    const UavMeasurement at_start{false, snapshot.now, starts[i], Vector3::Zero()};
+    foreign_bodies.push_back(seen   ? seenForeign(i, *last, parameters)
+                             : last ? unseenForeign(i, *last, parameters)
+                                    : seenForeign(i, at_start, parameters));
+    const ForeignBody& body = foreign_bodies.back();
+    surroundings.addObstacle(body.shape, body.stamp, body.inflation);
+  }
+
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
     if (uav.reference_pending) uav.reference.time_zero = epoch;
     uav.reference_pending = false;
-    const bool measured = judged[i] == Reason::kNone;
-    if (measured) uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (isPlannedFor(i)) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
+    } else if (!uav.foreign) {
+      uav.loseSight(parameters);
+    }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
       surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
     }
-    if (measured) surroundings.setPlanning(i, uav.start);
+    if (isPlannedFor(i)) surroundings.setPlanning(i, uav.start);
   }
 
   /// There is no time to plan for the UAV.
@@ -171,7 +200,9 @@ class SwarmPlanner::Impl {
     }
   }
 
+  std::vector<Vector3> starts;  ///< of the scenario [m]
   TrackMemory tracks;
+  std::vector<ForeignBody> foreign_bodies;  ///< of this cycle
   Surroundings surroundings;
   SolveOrder order;
   ThreadTeam team;
@@ -213,6 +244,13 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   if (!(speed >= 0.0) || !std::isfinite(speed)) throw std::invalid_argument("speed must be finite and >= 0");
   impl_->uavs[uav].setReference(path, start, speed);
 }
+
+void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
+  if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
+  impl_->uavs[uav].setForeign(foreign);
+}
+
+bool SwarmPlanner::isForeign(std::size_t uav) const { return impl_->uavs[uav].foreign; }
 
 void SwarmPlanner::reset() { impl_->reset(); }
 

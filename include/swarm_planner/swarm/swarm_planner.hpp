@@ -58,6 +58,11 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kOdometryFrozen,     ///< the position stays the same although the UAV is to move, or says that it does
+  kOdometryJumps,      ///< no flight leads from one measurement to the next
+  kOdometryBackwards,  ///< stamps go back
+  kOffPlan,            ///< far from its motion for long: planned for anew from where it is
+  kForeign,            ///< another system flies the UAV
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -126,6 +131,13 @@ class SwarmPlanner {
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` at least one finite point,
   /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
+
+  /// Whether another system flies a UAV (at first: what the scenario says). Nobody plans for it then, it is not waited for
+  /// at the start, and the others avoid it from its odometry; what it was to fly here they keep clear of until odometry
+  /// shows it elsewhere. One that comes back is planned for from the next cycle on, from where it is measured. Call it
+  /// between cycles. Throws std::invalid_argument if there is no such UAV.
+  void setForeign(std::size_t uav, bool foreign);
+  bool isForeign(std::size_t uav) const;
 
   /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.
   void reset();
