@@ -12,6 +12,7 @@
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/status_conversion.hpp"
+#include "swarm_planner/ros/status_tally.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 
 namespace swarm_planner {
@@ -119,7 +120,8 @@ void PlannerNode::tellOperator() const {
   std::string alarms;
   std::string warnings;
   for (const UavStatus& uav : status_.uavs) {
-    if (!uav.reason.empty()) (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
+    if (uav.reason.empty() || concernOf(uav) == Concern::kNone) continue;
+    (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
   }
   if (!alarms.empty()) ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "ALARM, safety is not assured:" << alarms);
   if (!warnings.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Not every UAV is tracking:" << warnings);

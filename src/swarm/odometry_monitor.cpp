@@ -54,7 +54,10 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
     return Reason::kOdometryFrozen;
   }
-  if (!trusted_ || isReachable(*trusted_, measurement, parameters)) {
+  // Whatever is far enough in the past explains everything: among doubted ones only those before count then.
+  const double doubt_time = parameters.input.odometry_doubt_time;
+  const bool is_comparable = trusted_ && (!doubted_ || measurement.stamp - trusted_->stamp <= doubt_time);
+  if (!trusted_ || (is_comparable && isReachable(*trusted_, measurement, parameters))) {
     trusted_ = measurement;
     doubted_.reset();
     return Reason::kNone;
@@ -62,7 +65,7 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
   const Reason fault = measurement.stamp < trusted_->stamp ? Reason::kOdometryBackwards : Reason::kOdometryJumps;
   if (!doubted_ || !isReachable(*doubted_, measurement, parameters)) doubted_since_ = measurement.stamp;
   doubted_ = measurement;
-  if (measurement.stamp - doubted_since_ < parameters.input.odometry_doubt_time) return fault;
+  if (measurement.stamp - doubted_since_ < doubt_time) return fault;
   trusted_ = measurement;
   doubted_.reset();
   return Reason::kNone;
