@@ -12,6 +12,7 @@
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/status_conversion.hpp"
+#include "swarm_planner/ros/status_tally.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 
 namespace swarm_planner {
@@ -120,7 +121,7 @@ void PlannerNode::tellOperator() const {
   std::string alarms;
   std::string warnings;
   for (const UavStatus& uav : status_.uavs) {
-    if (concernOf(uav) == Concern::kNone) continue;
+    if (uav.reason.empty() || concernOf(uav) == Concern::kNone) continue;
     (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
   }
   if (!alarms.empty()) ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "ALARM, safety is not assured:" << alarms);

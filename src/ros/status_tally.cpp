@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
 namespace swarm_planner {
 
 Concern concernOf(const UavStatus& uav) {

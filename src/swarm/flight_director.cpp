@@ -169,6 +169,11 @@ void FlightDirector::takeColumns(const std::vector<UavRecord>& uavs) {
       if (task.phase != LandingPhase::kBraking) sites_.take(i, task.site);
       continue;
     }
+    if (!isPlannedFor(task.mode)) {
+      const std::optional<UavMeasurement>& seen = uavs[i].monitor.trusted();
+      if (seen && seen->v.norm() < kSlow) sites_.take(i, seen->p);
+      continue;
+    }
     if (uavs[i].motions.empty()) continue;
     const Vector3& rest = uavs[i].motions.flown().restingPlace();
     const bool stands = uavs[i].start.v.norm() < kSlow && (uavs[i].start.p - rest).norm() < kStandsWithin;

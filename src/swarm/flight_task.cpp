@@ -23,7 +23,7 @@ Reason reasonOf(const FlightTask& task) {
     case FlightMode::kStopped:
       return Reason::kStopped;
     case FlightMode::kAbsent:
-      return Reason::kAbsent;
+      return Reason::kForeign;
   }
   return Reason::kNone;
 }
@@ -33,7 +33,7 @@ Reason reasonOf(const FlightTask& task) {
 void reportTask(const FlightTask& task, UavReport& report) {
   if (task.mode == FlightMode::kFlying) return;
   if (report.reason == Reason::kNone) report.reason = reasonOf(task);
-  if (task.mode == FlightMode::kWaiting || task.mode == FlightMode::kHolding) {
+  if (!isPlannedFor(task.mode) || task.mode == FlightMode::kHolding) {
     report.state = UavState::kHolding;
   } else {
     report.state = task.mode == FlightMode::kLanding ? UavState::kLanding : UavState::kStopped;

@@ -14,7 +14,7 @@ bool isCommanded(Reason reason) {
     case Reason::kDescending:
     case Reason::kLanded:
     case Reason::kStopped:
-    case Reason::kAbsent:
+    case Reason::kForeign:
       return true;
     default:
       return false;
@@ -53,6 +53,16 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kOdometryFrozen:
+      return "odometry is frozen: its position stays the same while the UAV is to move";
+    case Reason::kOdometryJumps:
+      return "odometry jumps: no flight leads from one position to the next";
+    case Reason::kOdometryBackwards:
+      return "the stamps of odometry go back";
+    case Reason::kOffPlan:
+      return "far off its plan; planned anew from where it is";
+    case Reason::kForeign:
+      return "flown by another system";
     case Reason::kNoLandingSite:
       return "cannot land: no free landing site within reach; holds and looks again";
     case Reason::kHeld:
@@ -67,8 +77,6 @@ const char* reasonText(Reason reason) {
       return "landed";
     case Reason::kStopped:
       return "stopped by command";
-    case Reason::kAbsent:
-      return "not in the swarm: it is not planned for, others avoid it";
   }
   return "unknown reason";
 }

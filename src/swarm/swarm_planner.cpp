@@ -10,6 +10,7 @@
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
+#include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -19,27 +20,12 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kLargest = 1e8;  // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Obstacles that there is room for before memory has to grow in flight: tracks may be more than the scenario has.
 std::size_t maxObstacles(const Mission& mission) {
   constexpr std::size_t kTracks = 256;
   return std::max(kTracks, mission.scenario.obstacles.size());
-}
-
-/// False for NaN too.
-bool isPlausible(const Vector3& x) { return (x.array().abs() < kLargest).all(); }
-
-/// Why a measurement cannot be planned from; kNone if it can.
-Reason judge(const UavMeasurement& measurement, double now, double timeout) {
-  if (!measurement.received) return Reason::kWaitingForOdometry;
-  if (!isPlausible(measurement.p) || !isPlausible(measurement.v) || !std::isfinite(measurement.stamp)) {
-    return Reason::kOdometryNotFinite;
-  }
-  if (measurement.stamp > now + kClockTolerance) return Reason::kOdometryFromFuture;
-  if (now - measurement.stamp > timeout) return Reason::kOdometryStale;
-  return Reason::kNone;
 }
 
 }  // namespace
@@ -49,6 +35,7 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
+        bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
         tracks(parameters.input.track_timeout, maxObstacles(mission)),
         surroundings(parameters, uavs.size(), maxObstacles(mission)),
         director(mission, parameters),
@@ -57,14 +44,18 @@ class SwarmPlanner::Impl {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const ScenarioUav& uav = mission.scenario.uavs[i];
       uavs[i].name = uav.name;
+      uavs[i].foreign = uav.external;
+      if (uav.external) uavs[i].task.mode = FlightMode::kAbsent;
+      starts.push_back(uav.start);
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
     order.reserve(uavs.size());
+    foreign_bodies.reserve(uavs.size());
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxObstacles(mission));
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, 2 * uavs.size() + maxObstacles(mission));
     }
   }
 
@@ -87,13 +78,7 @@ class SwarmPlanner::Impl {
   void enter(std::size_t i, FlightMode mode) {
     UavRecord& uav = uavs[i];
     if (uav.task.mode == FlightMode::kFlying) uav.pauseReference(report.epoch);
-    const bool foreign = mode == FlightMode::kAbsent;
-    if (uav.foreign && !foreign) {
-      uav.motions.clear();
-      uav.deviation.setZero();
-    }
-    if (foreign) uav.planned = false;
-    uav.foreign = foreign;
+    uav.setForeign(mode == FlightMode::kAbsent);
     uav.task.enter(mode);
   }
 
@@ -112,14 +97,15 @@ class SwarmPlanner::Impl {
 
   const Parameters parameters;
   std::vector<UavRecord> uavs;
+  const FlightBounds bounds;
   CycleReport report;
 
  private:
   void judgeMeasurements(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const UavMeasurement none;
-      judged[i] =
-          judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now, parameters.input.odometry_timeout);
+      judged[i] = uavs[i].monitor.judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now,
+                                        uavs[i].motions, parameters);
       UavReport& uav_report = report.uavs[i];
       uav_report = UavReport();
       uav_report.obstacle_clearance = uav_report.pair_distance = kInfinity;
@@ -166,7 +152,20 @@ class SwarmPlanner::Impl {
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
+    foreign_bodies.clear();
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      // One that has joined and is not seen is still where it was as a foreign one.
+      if (!isPlannedFor(uavs[i].task.mode) ||
+          (uavs[i].unseen && judged[i] != Reason::kNone && uavs[i].motions.empty())) {
+        addForeign(i, snapshot);
+      }
+    }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].unseen && !uavs[i].motions.empty()) {
+        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
+      }
+    }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
@@ -174,7 +173,7 @@ class SwarmPlanner::Impl {
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
-        if (judged[i] != Reason::kNone || !isPlannedFor(uavs[i].task.mode)) return;
+        if (!isToPlan(i)) return;
         // Whatever the budget, somebody makes progress.
         if (planned.exchange(true) && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
@@ -186,27 +185,43 @@ class SwarmPlanner::Impl {
     noteOverrun();
   }
 
+  bool isToPlan(std::size_t i) const { return judged[i] == Reason::kNone && isPlannedFor(uavs[i].task.mode); }
+
+  /// Tells the surroundings where a UAV is that another system flies. What it was to fly here counts until odometry
+  /// shows it elsewhere, or it has ended.
+  void addForeign(std::size_t i, const Snapshot& snapshot) {
+    UavRecord& uav = uavs[i];
+    const bool seen = judged[i] == Reason::kNone;
+    if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
+    const std::optional<UavMeasurement>& last = uav.monitor.trusted();
+    // Before it is seen first it is where the scenario starts it.
+    const UavMeasurement at_start{false, snapshot.now, starts[i], Vector3::Zero()};
+    foreign_bodies.push_back(seen   ? seenForeign(i, *last, parameters)
+                             : last ? unseenForeign(i, *last, parameters)
+                                    : seenForeign(i, at_start, parameters));
+    const ForeignBody& body = foreign_bodies.back();
+    surroundings.addObstacle(body.shape, body.stamp, body.inflation);
+  }
+
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
-    const FlightMode mode = uav.task.mode;
-    if (uav.reference_pending && mode == FlightMode::kFlying) {
+    if (uav.reference_pending && uav.task.mode == FlightMode::kFlying) {
       uav.reference.time_zero = epoch;
       uav.reference_pending = false;
     }
-    const bool measured = judged[i] == Reason::kNone;
-    if (measured && !isPlannedFor(mode)) {
-      uav.watch(snapshot.uavs[i], epoch, parameters);
-    } else if (measured) {
-      uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (isToPlan(i)) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
       director.direct(epoch, snapshot.uavs[i], uav);
+    } else if (isPlannedFor(uav.task.mode)) {
+      uav.loseSight(parameters);
     }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
       surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
     }
-    if (measured && isPlannedFor(mode)) surroundings.setPlanning(i, uav.start);
+    if (isToPlan(i)) surroundings.setPlanning(i, uav.start);
   }
 
   /// There is no time to plan for the UAV.
@@ -229,7 +244,9 @@ class SwarmPlanner::Impl {
     }
   }
 
+  std::vector<Vector3> starts;  ///< of the scenario [m]
   TrackMemory tracks;
+  std::vector<ForeignBody> foreign_bodies;  ///< of this cycle
   Surroundings surroundings;
   FlightDirector director;
   SolveOrder order;
@@ -273,11 +290,18 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   impl_->uavs[uav].setReference(path, start, speed);
 }
 
-CommandAnswer SwarmPlanner::command(std::size_t uav, FlightCommand command) { return impl_->command(uav, command); }
-FlightMode SwarmPlanner::mode(std::size_t uav) const { return impl_->uavs[uav].task.mode; }
-void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
-  if (foreign != impl_->uavs[uav].foreign) command(uav, foreign ? FlightCommand::kLeave : FlightCommand::kJoin);
+CommandAnswer SwarmPlanner::command(std::size_t uav, FlightCommand command) {
+  if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
+  return impl_->command(uav, command);
 }
+
+FlightMode SwarmPlanner::mode(std::size_t uav) const { return impl_->uavs[uav].task.mode; }
+
+void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
+  command(uav, foreign ? FlightCommand::kLeave : FlightCommand::kJoin);
+}
+
+bool SwarmPlanner::isForeign(std::size_t uav) const { return impl_->uavs[uav].foreign; }
 
 void SwarmPlanner::reset() { impl_->reset(); }
 

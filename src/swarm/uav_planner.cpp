@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
+#include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
@@ -45,6 +46,11 @@ FlightBounds reserved(FlightBounds bounds) {
   return bounds;
 }
 
+/// A UAV measured farther from its motion than this is not on it [m]: neither tracking nor noise explains that.
+double leastDistanceOff(const Parameters& parameters) {
+  return 2.0 * std::max(parameters.limits.tracking_margin, parameters.input.odometry_noise);
+}
+
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
 }
@@ -75,28 +81,29 @@ void UavRecord::reset() {
   reference_pending = true;
   on_reference = false;
   active.count = 0;
+  monitor = OdometryMonitor();
+  unseen = false;
+  last_place.reset();
 }
 
-void UavRecord::watch(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
-  start = predictFromMeasurement(measurement, epoch);
-  Trajectory drift;
-  coastingPlan(start, epoch, parameters.time.sampling_time, drift);
-  StopManoeuvre stop;
-  planStop(drift.knots.back(), drift.dt, FlightBounds(parameters, nullptr), stop);
-  CommittedMotion motion;
-  motion.assign(drift, stop);
-  motions.clear();
-  motions.commit(motion);
-  planned = false;
-}
-
-void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
+void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                             const FlightBounds& bounds) {
   motions.compare(measurement.stamp, measurement.p, kLostMargins * parameters.limits.tracking_margin);
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   const Vector3 measured = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());
   deviation += kDeviationGain * (measured - deviation);
   const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
-  if (!expected || (rests && measured.norm() > kMoved)) {
+  const bool is_back = unseen;
+  unseen = false;
+  off_plan = monitor.noteDeviation(measured.norm(), measurement.stamp, parameters.input);
+  const bool moved = rests && measured.norm() > kMoved;
+  const bool is_elsewhere = is_back && (motions.empty() || measured.norm() > leastDistanceOff(parameters));
+  if (!moved && (off_plan || is_elsewhere)) {
+    off_plan_distance = measured.norm();
+    startAnew(measurement, epoch, parameters, bounds);
+    return;
+  }
+  if (!expected || moved) {
     start = predictFromMeasurement(measurement, epoch);
     if (expected || motions.empty()) {
       motions.clear();
@@ -113,6 +120,54 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
     return;
   }
   start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
+}
+
+void UavRecord::startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                          const FlightBounds& bounds) {
+  start = predictFromMeasurement(measurement, epoch);
+  StopManoeuvre stop;
+  planStop(start, parameters.time.sampling_time, relieveBounds(bounds, start, kBoundSlack), stop);
+  CommittedMotion braking;
+  braking.assignStop(epoch, stop);
+  motions.startAnew(braking);
+  planned = true;
+  deviation.setZero();
+}
+
+void UavRecord::setForeign(bool is_foreign) {
+  if (foreign == is_foreign) return;
+  foreign = is_foreign;
+  unseen = !foreign;  // where it comes from is not what it was to fly
+  last_place.reset();
+  on_reference = false;
+}
+
+bool UavRecord::isOnMotion(const UavMeasurement& measurement, const Parameters& parameters) const {
+  const CommittedMotion& flown = motions.flown();
+  if (measurement.stamp > flown.epoch() + flown.duration()) return false;
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  return !expected || (measurement.p - expected->p).norm() <= leastDistanceOff(parameters);
+}
+
+void UavRecord::forgetMotions() {
+  motions.clear();
+  planned = false;
+  deviation.setZero();
+}
+
+void UavRecord::loseSight(const Parameters& parameters) {
+  if (unseen) return;
+  unseen = true;
+  last_place.reset();
+  const std::optional<UavMeasurement>& seen = monitor.trusted();
+  const std::optional<KinematicState> expected =
+      seen ? motions.expectedAt(seen->stamp) : std::optional<KinematicState>();
+  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) last_place = seen->p;
+}
+
+MotionDoubt UavRecord::doubt(const InputParameters& input) const {
+  if (!monitor.trusted()) return {};
+  return {monitor.trusted()->stamp, input.lost_growth_rate, input.lost_growth_limit};
 }
 
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
@@ -136,6 +191,7 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   has_proposal_ = false;
   flies_whole_plan_ = false;
   setFloor(record.task);
+  limitDoubts(epoch, record.motions.flown());
   if (rest(uav, epoch, record, surroundings)) {
     poseProblem(uav, epoch, record, surroundings);
   } else {
@@ -233,6 +289,19 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   return verdict;
 }
 
+void UavPlanner::limitDoubts(double epoch, const CommittedMotion& flown) {
+  bool is_kept = false;
+  for (OtherMotion& other : check_.uavs) {
+    if (other.doubt.isNone()) continue;
+    if (!is_kept) {
+      kept_ = flown;
+      kept_.dropPieces(kept_.endedPieces(epoch));
+      is_kept = true;
+    }
+    other.doubt = other.doubt.times(bearableShare(kept_, other, limits_));
+  }
+}
+
 CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan) {
   if (!parameters_.limits.plan_check) {
     StopManoeuvre stop;
@@ -298,10 +367,12 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   report.lag = problem_.targets[0].arc_length - problem_.progress;
   const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
-  if (report.reason == Reason::kNone && record.deviation.norm() > parameters_.limits.tracking_margin) {
-    report.reason = Reason::kStraying;
+  const bool on_new_plan = report.reason == Reason::kNone;
+  if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
+  if (on_new_plan && record.off_plan) {
+    report.reason = Reason::kOffPlan;
+    report.deviation = record.off_plan_distance;
   }
-  const bool on_new_plan = report.reason == Reason::kNone || report.reason == Reason::kStraying;
   report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
   reportTask(record.task, report);
 }

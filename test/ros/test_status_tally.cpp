@@ -30,6 +30,15 @@ TEST(Concern, TellsAlarmsFromCautions) {
   EXPECT_EQ(concernOf(uavStatus(UavStatus::LOST, "silent")), Concern::kAlarm);
 }
 
+TEST(Concern, OfACommandThatIsCarriedOutIsNone) {
+  UavStatus uav = uavStatus(UavStatus::LANDING, "descends");
+  EXPECT_EQ(concernOf(uav), Concern::kCaution);
+  uav.commanded = true;
+  EXPECT_EQ(concernOf(uav), Concern::kNone);
+  uav.alarm = true;
+  EXPECT_EQ(concernOf(uav), Concern::kAlarm);
+}
+
 TEST(Concern, AShorterStepThatPassedIsNone) {
   UavStatus uav = uavStatus(UavStatus::TRACKING);
   uav.refusal = "too close to an obstacle";

@@ -134,8 +134,8 @@ TEST(Leave, EndsPlanningAndJoinTakesItUpAgain) {
   EXPECT_EQ(flight.planner().command(0, FlightCommand::kLeave).text, "gets no more setpoints; others avoid it");
   flight.cycles(20);
   EXPECT_FALSE(flight.planner().report().uavs[0].planned);
-  EXPECT_EQ(flight.planner().report().uavs[0].state, UavState::kStopped);
-  EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kAbsent);
+  EXPECT_EQ(flight.planner().report().uavs[0].state, UavState::kHolding);
+  EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kForeign);
   EXPECT_TRUE(flight.planner().report().uavs[1].planned);
   EXPECT_FALSE(flight.planner().command(0, FlightCommand::kHold).accepted);
   const Vector3 place = flight.vehicle(0).p;

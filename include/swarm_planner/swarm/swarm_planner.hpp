@@ -59,6 +59,11 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kOdometryFrozen,     ///< the position stays the same although the UAV is to move, or says that it does
+  kOdometryJumps,      ///< no flight leads from one measurement to the next
+  kOdometryBackwards,  ///< stamps go back
+  kOffPlan,            ///< far from its motion for long: planned for anew from where it is
+  kForeign,            ///< another system flies the UAV
   kNoLandingSite,      ///< none is free: it holds and looks again
   kHeld,               ///< the mode's own, as are those that follow: nothing is amiss
   kBrakesToLand,
@@ -66,7 +71,6 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
-  kAbsent,
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -142,8 +146,14 @@ class SwarmPlanner {
   /// What a UAV is to do from the next cycle on. Any command in any state; call it between cycles.
   CommandAnswer command(std::size_t uav, FlightCommand command);
   FlightMode mode(std::size_t uav) const;
-  /// Whether nobody plans for the UAV: others avoid it from its odometry. Its mode follows.
+
+  /// Whether another system flies a UAV (at first: what the scenario says). Nobody plans for it then, it is not waited
+  /// for at the start, and the others avoid it from its odometry; what it was to fly here they keep clear of until
+  /// odometry shows it elsewhere. One that comes back is planned for from the next cycle on, from where it is measured.
+  /// Call it between cycles. Throws std::invalid_argument if there is no such UAV. The same as the commands to leave
+  /// and to join.
   void setForeign(std::size_t uav, bool foreign);
+  bool isForeign(std::size_t uav) const;
 
   /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later, and
   /// so do the UAVs' modes.
