@@ -10,6 +10,7 @@ namespace {
 constexpr double kLargest = 1e8;       // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kLeastNoise = 0.05;   // rounding must not look like a motion, nor every step like a jump [m]
 constexpr double kFrozenNoises = 2.0;  // odometry_noise that the UAV should have moved by
+constexpr double kMotionNoises = 2.0;  // odometry_noise that a UAV on its motion may be off it
 constexpr double kJumpNoises = 7.0;    // odometry_noise that two measurements may differ by
 constexpr double kSpeedSlack = 1.2;    // gusts carry a UAV faster than it is allowed to plan
 
@@ -28,6 +29,12 @@ bool isReachable(const UavMeasurement& from, const UavMeasurement& to, const Par
   const double acceleration = parameters.limits.max_thrust_ratio * parameters.vehicle.gravity;
   return way.norm() <= speed * dt + noise &&
          (way - 0.5 * dt * (from.v + to.v)).norm() <= 0.25 * dt * dt * acceleration + noise;
+}
+
+/// Whether it is where it is to be, but for noise.
+bool isOnMotion(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input) {
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  return expected && (measurement.p - expected->p).norm() <= kMotionNoises * noiseOf(input);
 }
 
 }  // namespace
@@ -54,10 +61,11 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
     return Reason::kOdometryFrozen;
   }
-  // Whatever is far enough in the past explains everything: among doubted ones only those before count then.
+  // Among doubted ones the last that was believed soon explains everything; to be where the motion has the UAV is better.
   const double doubt_time = parameters.input.odometry_doubt_time;
   const bool is_comparable = trusted_ && (!doubted_ || measurement.stamp - trusted_->stamp <= doubt_time);
-  if (!trusted_ || (is_comparable && isReachable(*trusted_, measurement, parameters))) {
+  if (!trusted_ || (is_comparable && isReachable(*trusted_, measurement, parameters)) ||
+      (doubted_ && isOnMotion(measurement, motions, parameters.input))) {
     trusted_ = measurement;
     doubted_.reset();
     return Reason::kNone;

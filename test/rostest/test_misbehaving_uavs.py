@@ -30,6 +30,20 @@ class Frozen:
         return message
 
 
+class Stuck:
+    """Stays where it was first, but for a little noise."""
+
+    def __init__(self):
+        self.place = None
+
+    def __call__(self, message):
+        self.place = self.place or copy.deepcopy(message.pose.pose.position)
+        pose = message.pose.pose.position
+        pose.x, pose.y, pose.z = (random.gauss(getattr(self.place, axis), 0.01) for axis in 'xyz')
+        message.twist.twist.linear.x = message.twist.twist.linear.y = message.twist.twist.linear.z = 0.0
+        return message
+
+
 class Jumping:
     """Is at one of three places 30 m apart, at each for 0.2 s: never long enough to be believed."""
 
@@ -119,12 +133,8 @@ class MisbehavingUavsTest(unittest.TestCase):
         self.assertNotIn(UavStatus.LOST, [uav.state for uav in self.of_uav2(statuses)])
 
     def test_off_its_plan(self):
-        def aside(message):
-            message.pose.pose.position.z += 1.8
-            return message
-
         self.planner.status.clear()
-        self.uav2.spoil = aside
+        self.uav2.spoil = Stuck()
         wait_for(lambda: any('m far off its plan' in uav.reason for uav in self.of_uav2(self.planner.status.all())),
                  'a UAV off its plan')
         self.uav2.spoil = lambda message: message

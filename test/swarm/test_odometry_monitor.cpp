@@ -96,7 +96,7 @@ TEST_F(Monitor, NoticesByTheMotionThatAHoveringUavsPositionIsFrozen) {
 
 TEST_F(Monitor, NoticesAFrozenPositionBesideALiveVelocity) {
   commit(kPlace, kFast);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (3.0 + 0.01 * i) * kFast), Reason::kNone);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kNone);
   EXPECT_EQ(judge(1.2, kPlace, kFast), Reason::kOdometryFrozen);
 }
 
@@ -137,6 +137,22 @@ TEST_F(Monitor, NeverBelievesAPositionThatKeepsJumping) {
     ASSERT_EQ(judge(kCycle * i, kPlace + side * Vector3::UnitY() + random.vector(-1.0, 1.0), Vector3::Zero()),
               Reason::kOdometryJumps)
         << i;
+  }
+}
+
+// ... but one that is back on the motion, at once.
+TEST_F(Monitor, BelievesAtOnceWhatIsBackOnTheMotion) {
+  for (const bool has_motion : {false, true}) {
+    monitor_ = OdometryMonitor();
+    if (has_motion) commit(kPlace, kFast);
+    EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+    double side = 20.0;
+    for (int i = 1; i < 10; ++i) {
+      side = -side;
+      EXPECT_EQ(judge(kCycle * i, kPlace + Vector3(0, side, 0), kFast), Reason::kOdometryJumps) << i;
+    }
+    const Reason back = judge(3.0, kPlace + 3.0 * kFast + Vector3(0.1, -0.1, 0.1), kFast);
+    EXPECT_EQ(back, has_motion ? Reason::kNone : Reason::kOdometryJumps);
   }
 }
 
@@ -190,12 +206,14 @@ TEST_F(Monitor, CallsStampsThatStandStillTooOld) {
 // ---- Off plan
 
 TEST_F(Monitor, TellsADeviationThatLastsAndCountsAnew) {
+  parameters_.input.off_plan_distance = 1.5;
   const auto note = [&](double t, double deviation) {
     return monitor_.noteDeviation(deviation, kBegin + t, parameters_.input);
   };
   for (const double t : {0.0, 0.3, 0.6, 0.9}) EXPECT_FALSE(note(t, 1.6)) << t;
   EXPECT_TRUE(note(1.2, 1.6));
   EXPECT_FALSE(note(1.5, 1.6));
+  EXPECT_FALSE(note(1.8, 0.0));
   // A gust that ends, and one that is not strong enough.
   for (const double t : {2.0, 2.9}) EXPECT_FALSE(note(t, 3.0)) << t;
   EXPECT_FALSE(note(2.95, 1.0));

@@ -103,7 +103,7 @@ struct InputParameters {
   double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]
   double odometry_noise = 0.15;    ///< deviations up to this may be noise alone [m]
   double odometry_doubt_time = 1.0;  ///< how long a jump, a standstill or a deviation is doubted [s]
-  double off_plan_distance = 1.5;  ///< a UAV so far from its motion for odometry_doubt_time is planned for anew [m]
+  double off_plan_distance = 1.0;  ///< a UAV so far from its motion for odometry_doubt_time is planned for anew [m]
   double lost_growth_rate = 0.3;   ///< by which others keep farther from a UAV that is not seen [m/s]
   double lost_growth_limit = 2.0;  ///< up to this [m]; unset: pair_distance
   int lost_setpoints = 1;          ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
