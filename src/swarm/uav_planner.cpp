@@ -67,11 +67,6 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   on_reference = false;
 }
 
-void UavRecord::pauseReference(double t) {
-  if (!reference_pending) reference.start = reference.at(t).arc_length;
-  reference_pending = true;
-}
-
 void UavRecord::reset() {
   motions.clear();
   planned = false;
@@ -190,7 +185,8 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   committed_ = record.motions.flown().at(epoch).p;
   has_proposal_ = false;
   flies_whole_plan_ = false;
-  setFloor(record.task);
+  const double floor = record.task.workspaceFloor(workspace_floor_, parameters_.limits.tracking_margin);
+  limits_.bounds.workspace.min.z() = problem_.bounds.workspace.min.z() = floor;
   limitDoubts(epoch, record.motions.flown());
   if (rest(uav, epoch, record, surroundings)) {
     poseProblem(uav, epoch, record, surroundings);
@@ -240,13 +236,6 @@ bool UavPlanner::rest(std::size_t uav, double epoch, UavRecord& record, const Su
                           checkClearance(stop_, committed_, limits_, check_).accepted();
   if (task.is_quickest_stop) record.motions.commit(stop_);
   return task.is_quickest_stop;
-}
-
-void UavPlanner::setFloor(const FlightTask& task) {
-  double floor = workspace_floor_;
-  if (task.below_workspace) floor = std::min(floor, task.floor - parameters_.limits.tracking_margin);
-  limits_.bounds.workspace.min.z() = floor;
-  problem_.bounds.workspace.min.z() = floor;
 }
 
 CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,

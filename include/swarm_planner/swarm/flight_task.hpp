@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "swarm_planner/problem/reference_path.hpp"
@@ -48,6 +49,10 @@ struct FlightTask {
     has_no_site = false;
     is_quickest_stop = false;
     phase = LandingPhase::kBraking;
+  }
+  /// The least height of what is flown, where the workspace's is `least`; `margin` [m] below the ground is let pass.
+  double workspaceFloor(double least, double margin) const {
+    return below_workspace ? std::min(least, floor - margin) : least;
   }
   /// A target that moves from `begin` at time `t` [s] to `end` with `speed` [m/s].
   void follow(const Vector3& begin, const Vector3& end, double speed, double t) {

@@ -7,31 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
 #include "swarm_planner/swarm/flight_commands.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
+#include "swarm_planner/swarm/snapshot.hpp"
 
 namespace swarm_planner {
-
-/// Odometry of one UAV in the planning frame.
-struct UavMeasurement {
-  bool received = false;
-  double stamp = 0.0;           ///< [s]
-  Vector3 p = Vector3::Zero();  ///< [m]
-  Vector3 v = Vector3::Zero();  ///< [m/s]
-};
-
-/// All that one cycle looks at. Sized once; filled anew each cycle.
-struct Snapshot {
-  double now = 0.0;                  ///< [s]
-  std::vector<UavMeasurement> uavs;  ///< one per UAV, in the scenario's order
-  /// What trackers report; need not be every obstacle, nor differ from the cycle before. Obstacles that are missing are
-  /// remembered for track_timeout.
-  std::vector<TrackedObstacle> obstacles;
-};
 
 /// State of a UAV as PlannerStatus reports it (same numbers as the message's constants).
 enum class UavState : std::uint8_t {

@@ -43,7 +43,10 @@ struct UavRecord {
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
   /// The target stays where it is at `t` [s], until its time zero is set anew.
-  void pauseReference(double t);
+  void pauseReference(double t) {
+    if (!reference_pending) reference.start = reference.at(t).arc_length;
+    reference_pending = true;
+  }
   /// Forgets all motions, and with them what it holds at; the reference starts anew. Its mode stays.
   void reset();
   /// Takes the measurement in: what the UAV flies, and where it will be at `epoch`. Where it is not on its motion, its
@@ -83,8 +86,6 @@ class UavPlanner {
   /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
   /// if it is not, or there is none: a plan is needed then.
   bool rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
-  /// Bounds of the workspace for a UAV that may be below it.
-  void setFloor(const FlightTask& task);
   /// Solves from record.start and leaves the motion of the longest step towards the solution that passes the check.
   CheckVerdict propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                        UavReport& report);
