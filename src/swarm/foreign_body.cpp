@@ -17,8 +17,8 @@ ForeignBody makeBody(std::size_t uav, const UavMeasurement& measurement, const V
   // No obstacle of a scenario has a negative number.
   const int id = -1 - static_cast<int>(uav);
   ForeignBody body;
-  body.shape = Superellipsoid(id, center, Vector3(horizontal, horizontal, vertical), Vector3::Constant(2.0), 0.0,
-                              velocity);
+  body.shape =
+      Superellipsoid(id, center, Vector3(horizontal, horizontal, vertical), Vector3::Constant(2.0), 0.0, velocity);
   body.stamp = measurement.stamp;
   body.inflation.at_stamp = limits.tracking_error + parameters.input.odometry_noise;
   body.inflation.growth_rate = growth_rate;

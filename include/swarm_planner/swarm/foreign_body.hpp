@@ -9,9 +9,10 @@
 
 namespace swarm_planner {
 
-/// A UAV that another system flies, as what the others keep clear of: an obstacle whose surface, moved out by uav_radius
-/// + tracking_error, contains the pair ellipsoid grown by tracking_error. (Moved out, an ellipsoid contains the one with
-/// semi-axes longer by that much.)
+/// A UAV that another system flies, as what the others keep clear of: an obstacle whose surface, moved out by
+/// uav_radius
+/// + tracking_error, contains the pair ellipsoid grown by tracking_error. (Moved out, an ellipsoid contains the one
+/// with semi-axes longer by that much.)
 struct ForeignBody {
   Superellipsoid shape;  ///< its centre at `stamp`
   double stamp = 0.0;    ///< [s]

@@ -5,8 +5,8 @@
 
 namespace swarm_planner {
 
-/// How far a UAV that is not seen any more may be from the motion that it was to fly: rate (t - since), at most `limit`,
-/// and nothing before `since`. Never less at a later time.
+/// How far a UAV that is not seen any more may be from the motion that it was to fly: rate (t - since), at most
+/// `limit`, and nothing before `since`. Never less at a later time.
 struct MotionDoubt {
   double since = 0.0;  ///< when it was seen last [s]
   double rate = 0.0;   ///< >= 0 [m/s]

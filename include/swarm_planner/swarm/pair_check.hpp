@@ -10,8 +10,8 @@ namespace swarm_planner {
 CheckVerdict checkPair(const CommittedMotion& motion, const OtherMotion& other, const Vector3& committed,
                        const CheckLimits& limits);
 
-/// The share of the other's doubt that the motion flown now keeps clear of: 1, 3/4, 1/2, 1/4 or 0. No more than that may
-/// be demanded of a plan: a UAV that is lost beside another must not leave that one without any motion that passes.
+/// The share of the other's doubt that the motion flown now keeps clear of: 1, 3/4, 1/2, 1/4 or 0. No more than that
+/// may be demanded of a plan: a UAV that is lost beside another must not leave that one without any motion that passes.
 double bearableShare(const CommittedMotion& flown, const OtherMotion& other, const CheckLimits& limits);
 
 }  // namespace swarm_planner

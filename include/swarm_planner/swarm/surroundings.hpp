@@ -32,8 +32,8 @@ class Surroundings {
   /// newest one's sends others. Both have to outlive the cycle.
   void setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
 
-  /// The UAV, whose motions are set, is not seen: it may be off them by `doubt`. `last_place`: where it was seen last, if
-  /// others are to keep clear of that too [m].
+  /// The UAV, whose motions are set, is not seen: it may be off them by `doubt`. `last_place`: where it was seen last,
+  /// if others are to keep clear of that too [m].
   void setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place);
 
   /// The same in the course of the cycle, for a UAV that has its new motion; within the area that others were told of.
@@ -63,7 +63,7 @@ class Surroundings {
   struct Motions {
     const CommittedMotion* newest = nullptr;  ///< null: unknown
     const CommittedMotion* older = nullptr;
-    Box box;            ///< of all motions, with the doubt [m]
+    Box box;              ///< of all motions, with the doubt [m]
     MotionDoubt doubt{};  ///< of each
     int last_place = -1;  ///< index of a rest where it was seen last; negative: none
   };

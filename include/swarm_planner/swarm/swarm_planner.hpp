@@ -132,10 +132,10 @@ class SwarmPlanner {
   /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
 
-  /// Whether another system flies a UAV (at first: what the scenario says). Nobody plans for it then, it is not waited for
-  /// at the start, and the others avoid it from its odometry; what it was to fly here they keep clear of until odometry
-  /// shows it elsewhere. One that comes back is planned for from the next cycle on, from where it is measured. Call it
-  /// between cycles. Throws std::invalid_argument if there is no such UAV.
+  /// Whether another system flies a UAV (at first: what the scenario says). Nobody plans for it then, it is not waited
+  /// for at the start, and the others avoid it from its odometry; what it was to fly here they keep clear of until
+  /// odometry shows it elsewhere. One that comes back is planned for from the next cycle on, from where it is measured.
+  /// Call it between cycles. Throws std::invalid_argument if there is no such UAV.
   void setForeign(std::size_t uav, bool foreign);
   bool isForeign(std::size_t uav) const;
 

@@ -32,8 +32,8 @@ struct UavRecord {
   ActiveRows active;  ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
-  bool foreign = false;   ///< another system flies it
-  bool unseen = false;    ///< its odometry could not be planned from in the last cycle, or it has joined since
+  bool foreign = false;  ///< another system flies it
+  bool unseen = false;   ///< its odometry could not be planned from in the last cycle, or it has joined since
   std::optional<Vector3> last_place;  ///< while unseen: where it was seen last, if that was not on its motion [m]
   bool off_plan = false;              ///< planned for anew in this cycle: it was far off its motion for long
   double off_plan_distance = 0.0;     ///< so far [m]
