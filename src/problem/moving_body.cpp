@@ -25,8 +25,8 @@ MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, d
   return body;
 }
 
-MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal, double vertical,
-                               const Vector3& apart, const DistanceGrowth& growth) {
+MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart,
+                               const DistanceGrowth& growth) {
   MovingBody body;
   body.motion_ = &motion;
   body.distance_ = std::min(horizontal, vertical);

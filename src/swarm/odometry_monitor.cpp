@@ -61,7 +61,8 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
     return Reason::kOdometryFrozen;
   }
-  // Among doubted ones the last that was believed soon explains everything; to be where the motion has the UAV is better.
+  // Among doubted ones the last that was believed soon explains everything; to be where the motion has the UAV is
+  // better.
   const double doubt_time = parameters.input.odometry_doubt_time;
   const bool is_comparable = trusted_ && (!doubted_ || measurement.stamp - trusted_->stamp <= doubt_time);
   if (!trusted_ || (is_comparable && isReachable(*trusted_, measurement, parameters)) ||

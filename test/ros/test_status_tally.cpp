@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "swarm_planner/ros/status_tally.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
 namespace {

@@ -171,9 +171,7 @@ double leastGaugeWithTurn(bool leaves) {
   double least = 1e9;
   for (int i = 0; i < 40; ++i) {
     const auto where = [&](double t) { return Vector3(left.p + (t - left.stamp) * left.v); };
-    flight.cycle([&](Snapshot& snapshot) {
-      snapshot.uavs[1] = {leaves, snapshot.now, where(snapshot.now), left.v};
-    });
+    flight.cycle([&](Snapshot& snapshot) { snapshot.uavs[1] = {leaves, snapshot.now, where(snapshot.now), left.v}; });
     for (double t = flight.now(); t < flight.now() + 0.3; t += 0.02) {
       least = std::min(least, pairGauge(flight.vehicle(0, t).p - where(t), mission.parameters.limits));
     }

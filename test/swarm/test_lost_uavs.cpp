@@ -188,7 +188,8 @@ double jumpOnReturn(const Vector3& offset, int cycles) {
 }
 
 TEST(Return, OnItsMotionStartsWhereTheUavIs) {
-  // While it flies on at constant speed, and later, when it has begun to brake: what braking takes off the way is small.
+  // While it flies on at constant speed, and later, when it has begun to brake: what braking takes off the way is
+  // small.
   EXPECT_LT(jumpOnReturn(Vector3::Zero(), 3), 0.05);
   EXPECT_LT(jumpOnReturn(Vector3::Zero(), 40), 0.01);
   const double error = makeTestMission({}, {}, 0.0).parameters.limits.tracking_error;

@@ -191,6 +191,19 @@ TEST_F(NoHeap, LandingInACrowdAllocatesNothing) {
   EXPECT_EQ(heapCallsOfFlight(makeMission(circleSwap(12, 8.0, 1), {}, "circle_swap"), 100, nullptr, command), 0);
 }
 
+TEST_F(NoHeap, LostAndForeignUavsAllocateNothing) {
+  // One goes, frozen where it is not to be, one jumps for good, one belongs to somebody else.
+  Scenario scenario = circleSwap(12, 10.0, 1);
+  scenario.uavs[3].external = true;
+  const auto tamper = [](int cycle, Snapshot& snapshot) {
+    if (cycle == 19) snapshot.uavs[1].p.z() += 1.0;
+    if (cycle >= 20) snapshot.uavs[1].received = false;
+    if (cycle >= 30) snapshot.uavs[2].p.x() += 50.0;
+    if (cycle >= 40) snapshot.uavs[3].received = false;
+  };
+  EXPECT_EQ(heapCallsOfFlight(makeMission(scenario, {}, "circle_swap"), 100, tamper), 0);
+}
+
 TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {
   const Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(200, 0, 10)}, 3.0);
   const auto tamper = [](int cycle, Snapshot& snapshot) {

@@ -28,9 +28,10 @@
 
 namespace swarm_planner {
 
-/// Flies every UAV of the scenario on the trajectories that it receives, external ones behind their targets, publishes odometry and tf, makes /clock at
-/// speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to the scenario's end. Trajectories
-/// and odometry go over links that delay and lose them as the parameters of the simulation say.
+/// Flies every UAV of the scenario on the trajectories that it receives, external ones behind their targets, publishes
+/// odometry and tf, makes /clock at speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to
+/// the scenario's end. Trajectories and odometry go over links that delay and lose them as the parameters of the
+/// simulation say.
 class QuadSimNode {
  public:
   QuadSimNode(const Mission& mission, const QuadSimOptions& options);

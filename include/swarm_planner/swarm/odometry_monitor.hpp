@@ -20,8 +20,8 @@ namespace swarm_planner {
 ///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
 ///    each axis does not reach 7 n. After a jump a measurement is believed that a flight from p0 leads to within T, or
-///    that lies within 2 n of the motion; and any, once measurements have fitted each other for T: an estimator that has
-///    found its place anew.
+///    that lies within 2 n of the motion; and any, once measurements have fitted each other for T: an estimator that
+///    has found its place anew.
 ///  - stamps go back: the same, told by its own reason.
 ///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
 class OdometryMonitor {
@@ -42,10 +42,10 @@ class OdometryMonitor {
   bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
 
   std::optional<UavMeasurement> trusted_;
-  std::optional<UavMeasurement> newest_;  ///< compared last
-  Reason verdict_ = Reason::kNone;        ///< on it
-  std::optional<UavMeasurement> held_;    ///< the first with the position that the newest has
-  std::optional<Vector3> held_expected_;  ///< where the motion had the UAV then [m]
+  std::optional<UavMeasurement> newest_;   ///< compared last
+  Reason verdict_ = Reason::kNone;         ///< on it
+  std::optional<UavMeasurement> held_;     ///< the first with the position that the newest has
+  std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
   std::optional<double> off_plan_since_;   ///< [s]
