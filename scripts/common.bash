@@ -22,6 +22,7 @@ build_packages=(
   libros-rosgraph-msgs-dev
   librostest-dev
   libstd-msgs-dev
+  libstd-srvs-dev
   libtf2-dev
   libtf2-msgs-dev
   libtf2-ros-dev
@@ -36,6 +37,7 @@ build_packages=(
   ros-message-generation
   ros-message-runtime
   ros-std-msgs
+  ros-std-srvs
 )
 run_packages=(python3-rosbag rosbash rosout)
 test_packages=(
@@ -45,6 +47,7 @@ test_packages=(
   python3-nav-msgs
   python3-rosgraph-msgs
   python3-rospy
+  python3-std-srvs
   python3-tf2-msgs
   python3-trajectory-msgs
 )

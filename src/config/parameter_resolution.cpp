@@ -67,6 +67,7 @@ class Resolution {
     }
     if (!isSet("tracking_error"))
       limits.tracking_error = kErrorShare * std::min(limits.tracking_margin, 0.5 * limits.pair_margin);
+    if (!isSet("lost_growth_limit")) parameters.input.lost_growth_limit = limits.pair_distance;
     if (!isSet("setpoint_repeats")) parameters.input.setpoint_repeats = parameters.simulation.drop > 0.0 ? 1 : 0;
   }
 

@@ -127,6 +127,17 @@ void addLimits(TableBuilder& table) {
       "false: measurements count as of the present, and plans start from them; for negative controls only");
 }
 
+void addLanding(TableBuilder& table) {
+  using P = Parameters;
+  table.section(kPlannerFile, true);
+  table.number(
+      "land_speed", "m/s", Range::aboveUpTo(0.0, 5.0), [](P& p) -> double& { return p.landing.speed; },
+      "speed of the descent; at most half of max_speed is used");
+  table.number(
+      "ground_height", "m", Range::finite(), [](P& p) -> double& { return p.landing.ground_height; },
+      "z of a landed UAV's centre in the planning frame; a UAV that is lower already lands where it is");
+}
+
 void addTime(TableBuilder& table) {
   using P = Parameters;
   table.section(kPlannerFile, true);
@@ -226,6 +237,21 @@ void addInput(TableBuilder& table) {
   table.number(
       "odometry_noise", "m", Range::atLeast(0.0), [](P& p) -> double& { return p.input.odometry_noise; },
       "deviations from the plan up to this may be noise alone: a fifth of them is carried into the next plan's start");
+  table.number(
+      "odometry_doubt_time", "s", Range::aboveUpTo(0.0, 60.0),
+      [](P& p) -> double& { return p.input.odometry_doubt_time; },
+      "a jump of odometry is believed after this time; a position that stays the same, and a UAV off its plan, are "
+      "suffered for so long");
+  table.number(
+      "off_plan_distance", "m", Range::above(0.0), [](P& p) -> double& { return p.input.off_plan_distance; },
+      "a UAV farther than this from its plan for odometry_doubt_time is planned for anew from where it is");
+  table.number(
+      "lost_growth_rate", "m/s", Range::closed(0.0, 100.0), [](P& p) -> double& { return p.input.lost_growth_rate; },
+      "others keep farther from a UAV by this for every second since it was seen last");
+  table.number(
+      "lost_growth_limit", "m", Range::closed(0.0, 1000.0), [](P& p) -> double& { return p.input.lost_growth_limit; },
+      "the most by which others keep farther from a UAV that is not seen");
+  table.withRule();
   table.wholeNumber(
       "lost_setpoints", Range::closed(0.0, 1.0), [](P& p) -> int& { return p.input.lost_setpoints; },
       "so many trajectories in a row may fail to reach a vehicle: with 1 others keep clear of the one before, too");
@@ -334,6 +360,7 @@ const std::vector<ParameterEntry>& parameterEntries() {
   static const std::vector<ParameterEntry> kEntries = [] {
     TableBuilder table;
     addLimits(table);
+    addLanding(table);
     addTime(table);
     addCost(table);
     addSqp(table);

@@ -64,7 +64,7 @@ void readReference(const YamlMap& map, std::vector<Vector3>& reference) {
 }
 
 ScenarioUav readUav(const YamlNode& node, Uniqueness<std::string>& names) {
-  const YamlMap map(node, {"name", "start", "reference", "target"});
+  const YamlMap map(node, {"name", "start", "reference", "target", "external"});
   ScenarioUav uav;
   if (map.read("name", uav.name)) {
     if (!isGraphName(uav.name)) {
@@ -79,6 +79,7 @@ ScenarioUav readUav(const YamlNode& node, Uniqueness<std::string>& names) {
     target.read("start", Range::atLeast(0.0), uav.target.start);
     target.read("speed", Range::atLeast(0.0), uav.target.speed);
   }
+  if (const YamlNode* external = map.find("external")) uav.external = external->boolean().value_or(false);
   return uav;
 }
 

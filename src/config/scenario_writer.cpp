@@ -48,7 +48,7 @@ std::string uavText(const ScenarioUav& uav) {
   for (const Vector3& point : uav.reference) points += (points.empty() ? "" : ", ") + vectorText(point);
   return "  - name: " + scalarText(uav.name) + "\n    start: " + vectorText(uav.start) + "\n    reference: [" + points +
          "]\n    target: {start: " + formatNumber(uav.target.start) + ", speed: " + formatNumber(uav.target.speed) +
-         "}\n";
+         (uav.external ? "}\n    external: true\n" : "}\n");
 }
 
 std::string obstacleText(const ScenarioObstacle& obstacle) {

@@ -42,6 +42,8 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   const SimulationParameters& simulation = mission.parameters.simulation;
   for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
     vehicles_.emplace_back(mission.parameters, scenario.uavs[i].start, seed, i);
+    externals_.emplace_back();
+    if (scenario.uavs[i].external) externals_.back().emplace(scenario.uavs[i]);
     odometry_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kOdometryLink, i));
     setpoint_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kSetpointLink, i));
   }
@@ -190,6 +192,7 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
 void ClosedLoopRun::sendSetpoints(double now) {
   if (report_ == nullptr) return;
   for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+    if (externals_[i]) vehicles_[i].receive(externals_[i]->setpoints(now, 0.0));
     if (!report_->uavs[i].planned) continue;
     const CommittedMotion& motion = planner_.committed(i);
     sampleMotion(motion, motion.epoch(), kSetpointPeriod, std::numeric_limits<double>::infinity(), 0.0, setpoints_);

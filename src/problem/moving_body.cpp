@@ -25,15 +25,17 @@ MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, d
   return body;
 }
 
-MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal, double vertical,
-                               const Vector3& apart) {
+MovingBody MovingBody::fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart,
+                               const DistanceGrowth& growth) {
   MovingBody body;
   body.motion_ = &motion;
   body.distance_ = std::min(horizontal, vertical);
   body.scale_ = body.distance_ * Vector3(1.0 / horizontal, 1.0 / horizontal, 1.0 / vertical);
   body.apart_ = apart;
-  body.radius_ = std::max(horizontal, vertical);
-  body.extent_ = Vector3(horizontal, horizontal, vertical);
+  body.growth_ = growth;
+  const double most = 1.0 + body.growth(kHorizon - 1) / body.distance_;
+  body.radius_ = most * std::max(horizontal, vertical);
+  body.extent_ = most * Vector3(horizontal, horizontal, vertical);
   body.box_.min = motion.box.min - body.extent_;
   body.box_.max = motion.box.max + body.extent_;
   return body;

@@ -20,6 +20,17 @@ ReferencePath::ReferencePath(const std::vector<Vector3>& points) {
   }
 }
 
+void ReferencePath::assignLine(const Vector3& begin, const Vector3& end) {
+  points_.assign(1, begin);
+  arc_lengths_.assign(1, 0.0);
+  tangents_.clear();
+  const double step = (end - begin).norm();
+  if (step < kShortestSegment) return;
+  tangents_.push_back((end - begin) / step);
+  arc_lengths_.push_back(step);
+  points_.push_back(end);
+}
+
 std::size_t ReferencePath::segmentAt(double arc_length) const {
   const auto next = std::upper_bound(arc_lengths_.begin() + 1, arc_lengths_.end() - 1, arc_length);
   return static_cast<std::size_t>(next - arc_lengths_.begin()) - 1;

@@ -13,6 +13,7 @@
 #include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/status_conversion.hpp"
+#include "swarm_planner/ros/status_tally.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 
 namespace swarm_planner {
@@ -57,7 +58,8 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
       markers_(mission, frame_, options, inputs_),
-      budget_(options.planning_share) {
+      budget_(options.planning_share),
+      commands_(names_, planner_) {
   if (options.setpoint_horizon < 2.0 * cycle_period_) {
     ROS_WARN("setpoint_horizon is %.2f s: vehicles run out of setpoints when one cycle of %.2f s is lost",
              options.setpoint_horizon, cycle_period_);
@@ -130,7 +132,8 @@ void PlannerNode::tellOperator() const {
   std::string alarms;
   std::string warnings;
   for (const UavStatus& uav : status_.uavs) {
-    if (!uav.reason.empty()) (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
+    if (uav.reason.empty() || concernOf(uav) == Concern::kNone) continue;
+    (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
   }
   if (!alarms.empty()) ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "ALARM, safety is not assured:" << alarms);
   if (!warnings.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Not every UAV is tracking:" << warnings);
@@ -163,6 +166,10 @@ bool PlannerNode::setReference(SetReference::Request& request, SetReference::Res
     diagnostics_.addReference(true);
     response.success = true;
     response.message = request.uav + " follows the new reference from the next epoch on";
+    const FlightMode mode = planner_.mode(uav);
+    if (mode != FlightMode::kFlying) {
+      response.message = request.uav + " is " + modeText(mode) + ": it follows the new reference once it flies";
+    }
     ROS_INFO_STREAM_THROTTLE(kServicePeriod, response.message);
   } catch (const std::invalid_argument& error) {
     refuseReference(error.what(), response);

@@ -21,6 +21,8 @@ namespace {
 
 // The run is measured, and /clock advances, in such steps [s].
 constexpr double kStep = 0.01;
+// Between two commands to an external UAV: steps.
+constexpr std::uint64_t kExternalSteps = 20;
 // A longer gap is a jump of time, not a delay to make up for [s].
 constexpr double kJump = 1.0;
 // A run begins about a cycle ahead [s].
@@ -51,6 +53,8 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
     trajectory_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kSetpointLink, index));
     odometry_links_.emplace_back(simulation, streamSeed(seed, RandomUse::kOdometryLink, index));
     quads_.emplace_back(mission_.parameters, uav.start, seed, index);
+    externals_.emplace_back();
+    if (uav.external) externals_.back().emplace(uav);
     odometry_.push_back(
         node_.advertise<nav_msgs::Odometry>(nameForUav(options_.odometry_topic, uav.name), kOdometryQueueSize));
   }
@@ -194,6 +198,7 @@ void QuadSimNode::advance() {
   ++steps_;
   time_ = origin_ + static_cast<double>(steps_) * kStep;
   faults_.advanceTo(time_);
+  if (time_zero_ && steps_ % kExternalSteps == 0) commandExternals();
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
     deliverTrajectories(uav);
     quads_[uav].advanceTo(time_);
@@ -206,6 +211,12 @@ void QuadSimNode::advance() {
   }
   for (std::size_t uav = 0; uav < quads_.size(); ++uav) publishOdometry(uav);
   if (monitor_ && time_ >= *time_zero_) observe();
+}
+
+void QuadSimNode::commandExternals() {
+  for (std::size_t uav = 0; uav < quads_.size(); ++uav) {
+    if (externals_[uav]) quads_[uav].receive(externals_[uav]->setpoints(time_, *time_zero_));
+  }
 }
 
 void QuadSimNode::measure() {

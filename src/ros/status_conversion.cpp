@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/status_conversion.hpp"
 
+#include <array>
+#include <cstdio>
+
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 
@@ -21,7 +24,7 @@ std::string missingNames(const SwarmPlanner& planner, const std::vector<UavInput
   std::string names;
   int missing = 0;
   for (std::size_t uav = 0; uav < inputs.size(); ++uav) {
-    if (inputs[uav].received) continue;
+    if (inputs[uav].received || planner.isForeign(uav)) continue;
     if (++missing <= kMostNames) names += (missing > 1 ? ", " : "") + planner.uavName(uav);
   }
   if (missing > kMostNames) names += " and " + std::to_string(missing - kMostNames) + " more";
@@ -40,6 +43,11 @@ std::string describeReason(const SwarmPlanner& planner, std::size_t uav, const s
   }
   if (reason == Reason::kWaitingForOthers) return "waiting for odometry of " + missingNames(planner, inputs);
   if (reason == Reason::kOdometryStale && !fault.empty()) return std::string(reasonText(reason)) + ": " + fault;
+  if (reason == Reason::kOffPlan) {
+    std::array<char, 32> distance;
+    std::snprintf(distance.data(), distance.size(), "%.1f m ", planner.report().uavs[uav].deviation);
+    return distance.data() + std::string(reasonText(reason));
+  }
   return explainReason(reason, planner.report().uavs[uav].refusal);
 }
 
@@ -66,6 +74,7 @@ void toMessage(const SwarmPlanner& planner, const CycleContext& context, const s
     to.state = static_cast<std::uint8_t>(from.state);
     to.reason = reasons[uav];
     to.alarm = isAlarm(from.reason);
+    to.commanded = isCommanded(from.reason);
     to.refusal = from.refusal == CheckReason::kAccepted ? "" : checkReasonText(from.refusal);
     to.planned = from.planned;
     to.solve_time = from.solve_time;

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
 namespace swarm_planner {
 
 Concern concernOf(const UavStatus& uav) {
   if (uav.alarm || uav.state == UavStatus::LOST) return Concern::kAlarm;
-  if (uav.state == UavStatus::FALLBACK || !uav.reason.empty()) return Concern::kCaution;
+  if (uav.state == UavStatus::FALLBACK || !(uav.reason.empty() || uav.commanded)) return Concern::kCaution;
   return Concern::kNone;
 }
 

@@ -41,6 +41,11 @@ void CommittedMotion::assignRest(double epoch, const Vector3& position) {
   finish();
 }
 
+int CommittedMotion::endedPieces(double t) const {
+  const double elapsed = t - epoch_;
+  return elapsed >= duration() ? pieces_ : std::max(static_cast<int>((elapsed + kTimeTolerance) / dt_), 0);
+}
+
 void CommittedMotion::dropPieces(int count) {
   const int dropped = std::min(std::max(count, 0), pieces_);
   std::copy(&points_[3 * static_cast<std::size_t>(dropped)], &points_[3 * static_cast<std::size_t>(pieces_)] + 1,

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/swarm/motion_memory.hpp"
 
+#include <algorithm>
+
 namespace swarm_planner {
 
 void MotionMemory::clear() {
@@ -24,13 +26,18 @@ void MotionMemory::compare(double stamp, const Vector3& p, double difference) {
 }
 
 void MotionMemory::commit(const CommittedMotion& motion) {
-  if (count_ > 0) {
-    path_.append(flown(), motion.epoch());
-    if (!on_older_) newest_ = 1 - newest_;
-    count_ = 2;
-  } else {
-    count_ = 1;
-  }
+  if (count_ > 0) path_.append(flown(), motion.epoch());
+  push(motion);
+}
+
+void MotionMemory::startAnew(const CommittedMotion& motion) {
+  path_.clear();
+  push(motion);
+}
+
+void MotionMemory::push(const CommittedMotion& motion) {
+  if (count_ > 0 && !on_older_) newest_ = 1 - newest_;
+  count_ = std::min(count_ + 1, 2);
   motions_[newest_] = motion;
   on_older_ = false;
 }
@@ -47,7 +54,7 @@ void MotionMemory::goOn(double epoch) {
     motion.assignRest(epoch, Vector3(motion.restingPlace()));
     return;
   }
-  const int ended = static_cast<int>((epoch - motion.epoch() + CommittedMotion::kTimeTolerance) / motion.dt());
+  const int ended = motion.endedPieces(epoch);
   if (ended <= 0) return;
   path_.append(motion, motion.epoch() + ended * motion.dt());
   motion.dropPieces(ended);

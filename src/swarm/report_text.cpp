@@ -6,6 +6,21 @@
 
 namespace swarm_planner {
 
+bool isCommanded(Reason reason) {
+  switch (reason) {
+    case Reason::kHeld:
+    case Reason::kBrakesToLand:
+    case Reason::kFliesToLandingSite:
+    case Reason::kDescending:
+    case Reason::kLanded:
+    case Reason::kStopped:
+    case Reason::kForeign:
+      return true;
+    default:
+      return false;
+  }
+}
+
 bool isAlarm(Reason reason) { return reason == Reason::kNoSafePlan; }
 
 const char* reasonText(Reason reason) {
@@ -38,6 +53,30 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kOdometryFrozen:
+      return "odometry is frozen: its position stays the same while the UAV is to move";
+    case Reason::kOdometryJumps:
+      return "odometry jumps: no flight leads from one position to the next";
+    case Reason::kOdometryBackwards:
+      return "the stamps of odometry go back";
+    case Reason::kOffPlan:
+      return "far off its plan; planned anew from where it is";
+    case Reason::kForeign:
+      return "flown by another system";
+    case Reason::kNoLandingSite:
+      return "cannot land: no free landing site within reach; holds and looks again";
+    case Reason::kHeld:
+      return "holds by command";
+    case Reason::kBrakesToLand:
+      return "lands by command: brakes";
+    case Reason::kFliesToLandingSite:
+      return "lands by command: flies to above its landing site";
+    case Reason::kDescending:
+      return "lands by command: descends";
+    case Reason::kLanded:
+      return "landed";
+    case Reason::kStopped:
+      return "stopped by command";
   }
   return "unknown reason";
 }

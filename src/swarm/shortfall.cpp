@@ -22,8 +22,10 @@ double obstacleShortfall(const Vector3& p, double t, const PredictedObstacle& ob
 double pairShortfall(const Vector3& p, double t, const OtherMotion& other, const CheckLimits& limits) {
   if (t > other.valid_until) return 0.0;
   const Vector3 d = p - other.motion->at(t).p;
-  const Vector3 scaled(d.x() / limits.pair_horizontal, d.y() / limits.pair_horizontal, d.z() / limits.pair_vertical);
-  return (1.0 - scaled.norm()) * std::min(limits.pair_horizontal, limits.pair_vertical);
+  const double horizontal = limits.pair_horizontal + other.doubt.at(t);
+  const double vertical = limits.pair_vertical + other.doubt.at(t);
+  const Vector3 scaled(d.x() / horizontal, d.y() / horizontal, d.z() / vertical);
+  return (1.0 - scaled.norm()) * std::min(horizontal, vertical);
 }
 
 }  // namespace

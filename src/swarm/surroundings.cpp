@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace swarm_planner {
 namespace {
 
 constexpr int kStopReach = 1;  // stages at full speed that a stop is as long as
+constexpr double kForGood = std::numeric_limits<double>::infinity();
 
 void include(Box& box, const Box& other) {
   box.min = box.min.cwiseMin(other.min);
@@ -23,26 +25,34 @@ Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, 
       motions_(uav_count),
       predictions_(uav_count),
       areas_(uav_count) {
-  obstacles_.reserve(max_obstacles);
-  checked_obstacles_.reserve(max_obstacles);
+  obstacles_.reserve(max_obstacles + uav_count);
+  checked_obstacles_.reserve(max_obstacles + uav_count);
+  last_places_.reserve(uav_count);
   neighbours_.reserve(uav_count);
 }
 
+void Surroundings::setEpoch(double epoch) {
+  epoch_ = epoch;
+  last_places_.clear();
+}
+
 void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now) {
-  const LimitParameters& limits = parameters_.limits;
   obstacles_.clear();
   checked_obstacles_.clear();
   for (const TrackedObstacle& track : tracks) {
-    const double measured = limits.latency_compensation ? track.stamp : now;
-    const double age = epoch_ - measured;
-    const TrackInflation inflation = inflationOf(track, parameters_.input);
-    const double at_epoch = inflation.at(age);
-    const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
-                                inflation.at(inflation.growth_time) - at_epoch};
-    obstacles_.push_back({track.shape.movedBy(age), at_epoch, growth});
-    checked_obstacles_.push_back(predictObstacle(track, parameters_.input, limits.uav_radius + limits.tracking_error));
-    checked_obstacles_.back().stamp = measured;
+    const double measured = parameters_.limits.latency_compensation ? track.stamp : now;
+    addObstacle(track.shape, measured, inflationOf(track, parameters_.input));
   }
+}
+
+void Surroundings::addObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation) {
+  const LimitParameters& limits = parameters_.limits;
+  const double age = epoch_ - stamp;
+  const double at_epoch = inflation.at(age);
+  const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
+                              inflation.at(inflation.growth_time) - at_epoch};
+  obstacles_.push_back({shape.movedBy(age), at_epoch, growth});
+  checked_obstacles_.push_back(predictObstacle(shape, stamp, inflation, limits.uav_radius + limits.tracking_error));
 }
 
 void Surroundings::setUnknown(std::size_t uav) {
@@ -59,6 +69,23 @@ void Surroundings::replaceMotions(std::size_t uav, const CommittedMotion& newest
   predict(newest, epoch_, parameters_.time.sampling_time, predictions_[uav]);
   motions_[uav] = {&newest, older, newest.box()};
   if (older != nullptr) include(motions_[uav].box, older->box());
+}
+
+void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place) {
+  Motions& motions = motions_[uav];
+  motions.doubt = doubt;
+  if (last_place) {
+    motions.last_place = static_cast<int>(last_places_.size());
+    last_places_.emplace_back();
+    LastPlace& place = last_places_.back();
+    place.motion.assignRest(epoch_, *last_place);
+    predict(place.motion, epoch_, parameters_.time.sampling_time, place.prediction);
+    motions.box.include(*last_place);
+  }
+  const Vector3 reach = Vector3::Constant(doubt.limit);
+  motions.box.min -= reach;
+  motions.box.max += reach;
+  include(areas_[uav], motions.box);
 }
 
 void Surroundings::setPlanning(std::size_t uav, const KinematicState& start) { include(areas_[uav], reach(start)); }
@@ -110,17 +137,31 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
 }
 
 void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const {
+  const auto count = static_cast<std::uint32_t>(motions_.size());
   for (const std::uint32_t other : neighbours_.of(uav)) {
-    if (motions_[other].newest == nullptr) continue;
-    if (!motions_[other].box.near(reach, std::max(horizontal_, vertical_))) continue;
-    const PredictedMotion& motion = predictions_[other];
-    if (!motion.box.near(reach, std::max(horizontal_, vertical_))) continue;
-    MovingBody body = MovingBody::fromUav(motion, horizontal_, vertical_,
-                                          uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()));
-    body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.pair_margin);
-    body.setIdentity(2 * other + 1);
-    problem.bodies.push_back(body);
+    const Motions& motions = motions_[other];
+    if (motions.newest == nullptr) continue;
+    if (!motions.box.near(reach, std::max(horizontal_, vertical_))) continue;
+    addUav(uav, other, predictions_[other], 2 * other + 1, reach, problem);
+    if (motions.last_place < 0) continue;
+    const PredictedMotion& last_place = last_places_[static_cast<std::size_t>(motions.last_place)].prediction;
+    addUav(uav, other, last_place, 2 * (other + count) + 1, reach, problem);
   }
+}
+
+void Surroundings::addUav(std::size_t uav, std::uint32_t other, const PredictedMotion& motion, std::uint32_t identity,
+                          const Box& reach, UavProblem& problem) const {
+  const MotionDoubt& doubt = motions_[other].doubt;
+  const double now = doubt.at(epoch_);
+  const double horizontal = horizontal_ + now;
+  const double vertical = vertical_ + now;
+  if (!motion.box.near(reach, std::max(horizontal, vertical) + doubt.limit)) return;
+  const DistanceGrowth growth{doubt.rate * parameters_.time.sampling_time, doubt.limit - now};
+  MovingBody body = MovingBody::fromUav(motion, horizontal, vertical,
+                                        uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()), growth);
+  body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.pair_margin + now);
+  body.setIdentity(identity);
+  problem.bodies.push_back(body);
 }
 
 void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) const {
@@ -130,10 +171,15 @@ void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) con
   for (const std::uint32_t other : neighbours_.of(uav)) {
     const Motions& motions = motions_[other];
     if (motions.newest == nullptr || !motions.box.near(areas_[uav], 0.5 * std::max(horizontal_, vertical_))) continue;
-    surroundings.uavs.push_back({motions.newest});
+    surroundings.uavs.push_back({motions.newest, kForGood, motions.doubt});
+    if (motions.last_place >= 0) {
+      const LastPlace& place = last_places_[static_cast<std::size_t>(motions.last_place)];
+      surroundings.uavs.push_back({&place.motion, kForGood, motions.doubt});
+    }
     if (motions.older == nullptr || parameters_.input.lost_setpoints == 0) continue;
     // The cycle after the newest motion's sends the next one, which is not lost too.
-    surroundings.uavs.push_back({motions.older, motions.newest->epoch() + parameters_.time.cycle_period});
+    surroundings.uavs.push_back(
+        {motions.older, motions.newest->epoch() + parameters_.time.cycle_period, motions.doubt});
   }
 }
 

@@ -10,6 +10,8 @@
 #include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
+#include "swarm_planner/swarm/flight_director.hpp"
+#include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -19,22 +21,7 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kLargest = 1e8;  // metres or m/s that no UAV is at: an estimator has diverged
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// False for NaN too.
-bool isPlausible(const Vector3& x) { return (x.array().abs() < kLargest).all(); }
-
-/// Why a measurement cannot be planned from; kNone if it can.
-Reason judge(const UavMeasurement& measurement, double now, double timeout) {
-  if (!measurement.received) return Reason::kWaitingForOdometry;
-  if (!isPlausible(measurement.p) || !isPlausible(measurement.v) || !std::isfinite(measurement.stamp)) {
-    return Reason::kOdometryNotFinite;
-  }
-  if (measurement.stamp > now + kClockTolerance) return Reason::kOdometryFromFuture;
-  if (now - measurement.stamp > timeout) return Reason::kOdometryStale;
-  return Reason::kNone;
-}
 
 }  // namespace
 
@@ -43,22 +30,28 @@ class SwarmPlanner::Impl {
   explicit Impl(const Mission& mission)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
+        bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
         tracks(parameters.input.track_timeout, maxTracks(mission), uavs.size()),
         surroundings(parameters, uavs.size(), maxTracks(mission)),
+        director(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const ScenarioUav& uav = mission.scenario.uavs[i];
       uavs[i].name = uav.name;
+      uavs[i].foreign = uav.external;
+      if (uav.external) uavs[i].task.mode = FlightMode::kAbsent;
+      starts.push_back(uav.start);
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
     places.reserve(uavs.size());
     order.reserve(uavs.size());
+    foreign_bodies.reserve(uavs.size());
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, uavs.size() + maxTracks(mission));
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, 2 * uavs.size() + maxTracks(mission));
     }
   }
 
@@ -66,6 +59,23 @@ class SwarmPlanner::Impl {
     report.started = false;
     tracks.reset();
     for (UavRecord& uav : uavs) uav.reset();
+  }
+
+  CommandAnswer command(std::size_t i, FlightCommand command) {
+    FlightTask& task = uavs[i].task;
+    const FlightMode before = task.mode;
+    const FlightTransition change = transition(before, eventOf(command, activityBeside(i)));
+    if (change.answer == FlightAnswer::kDone) enter(i, change.mode);
+    const bool lost = report.uavs[i].state == UavState::kLost;
+    const Delay delay = !report.started ? Delay::kRunNotStarted : lost ? Delay::kOdometryLost : Delay::kNone;
+    return answerTo(command, before, change, delay);
+  }
+
+  void enter(std::size_t i, FlightMode mode) {
+    UavRecord& uav = uavs[i];
+    if (uav.task.mode == FlightMode::kFlying) uav.pauseReference(report.epoch);
+    uav.setForeign(mode == FlightMode::kAbsent);
+    uav.task.enter(mode);
   }
 
   void plan(const Snapshot& snapshot, double epoch, double budget) {
@@ -76,16 +86,14 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     judgeMeasurements(snapshot);
     report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
-    if (!report.started && mayStart(snapshot)) {
-      report.started = true;
-      report.time_zero = epoch;
-    }
+    if (!report.started && mayStart()) start(epoch);
     if (report.started) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
 
   const Parameters parameters;
   std::vector<UavRecord> uavs;
+  const FlightBounds bounds;
   CycleReport report;
 
  private:
@@ -100,36 +108,76 @@ class SwarmPlanner::Impl {
   void judgeMeasurements(const Snapshot& snapshot) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const UavMeasurement none;
-      judged[i] =
-          judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now, parameters.input.odometry_timeout);
+      judged[i] = uavs[i].monitor.judge(i < snapshot.uavs.size() ? snapshot.uavs[i] : none, snapshot.now,
+                                        uavs[i].motions, parameters);
       UavReport& uav_report = report.uavs[i];
       uav_report = UavReport();
       uav_report.obstacle_clearance = uav_report.pair_distance = kInfinity;
       uav_report.state = report.started && judged[i] != Reason::kNone ? UavState::kLost : UavState::kHolding;
       uav_report.reason = judged[i];
-      if (judged[i] == Reason::kNone && !report.started) {
-        uav_report.reason = parameters.input.autostart ? Reason::kWaitingForOthers : Reason::kWaitingForStart;
+      const FlightTask& task = uavs[i].task;
+      if (judged[i] != Reason::kNone) continue;
+      if (!report.started && !uavs[i].foreign) {
+        const bool commanded = parameters.input.autostart || isPlannedFor(task.mode);
+        uav_report.reason = commanded ? Reason::kWaitingForOthers : Reason::kWaitingForStart;
+      } else if (!isPlannedFor(task.mode)) {
+        reportTask(task, uav_report);
       }
     }
   }
 
-  bool mayStart(const Snapshot& snapshot) const {
-    const bool all_arrived = snapshot.uavs.size() == uavs.size() &&
-                             std::all_of(judged.begin(), judged.end(), [](Reason r) { return r == Reason::kNone; });
-    return parameters.input.autostart && all_arrived;
+  /// Whether the odometry of every UAV of the swarm has arrived, and some UAV is to fly.
+  bool mayStart() const {
+    bool some = false;
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].foreign) continue;
+      if (judged[i] != Reason::kNone) return false;
+      some = some || parameters.input.autostart || isPlannedFor(uavs[i].task.mode);
+    }
+    return some;
+  }
+
+  void start(double epoch) {
+    report.started = true;
+    report.time_zero = epoch;
+    if (!parameters.input.autostart) return;
+    for (UavRecord& uav : uavs) uav.task.mode = transition(uav.task.mode, FlightEvent::kRunStarts).mode;
+  }
+
+  /// What the swarm does, but for UAV i.
+  SwarmActivity activityBeside(std::size_t i) const {
+    if (!report.started) return SwarmActivity::kWaiting;
+    for (std::size_t other = 0; other < uavs.size(); ++other) {
+      if (other != i && uavs[other].task.mode == FlightMode::kFlying) return SwarmActivity::kFlying;
+    }
+    return SwarmActivity::kHolding;
   }
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
+    foreign_bodies.clear();
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      // One that has joined and is not seen is still where it was as a foreign one.
+      if (!isPlannedFor(uavs[i].task.mode) ||
+          (uavs[i].unseen && judged[i] != Reason::kNone && uavs[i].motions.empty())) {
+        addForeign(i, snapshot);
+      }
+    }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].unseen && !uavs[i].motions.empty()) {
+        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
+      }
+    }
+    director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
-        if (judged[i] != Reason::kNone) return;
+        if (!isToPlan(i)) return;
         // Whatever the budget, somebody makes progress.
         if (planned.exchange(true) && stopwatch.elapsed() > budget) {
           goOn(i, epoch);
@@ -141,19 +189,43 @@ class SwarmPlanner::Impl {
     noteOverrun();
   }
 
+  bool isToPlan(std::size_t i) const { return judged[i] == Reason::kNone && isPlannedFor(uavs[i].task.mode); }
+
+  /// Tells the surroundings where a UAV is that another system flies. What it was to fly here counts until odometry
+  /// shows it elsewhere, or it has ended.
+  void addForeign(std::size_t i, const Snapshot& snapshot) {
+    UavRecord& uav = uavs[i];
+    const bool seen = judged[i] == Reason::kNone;
+    if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
+    const std::optional<UavMeasurement>& last = uav.monitor.trusted();
+    // Before it is seen first it is where the scenario starts it.
+    const UavMeasurement at_start{false, snapshot.now, starts[i], Vector3::Zero()};
+    foreign_bodies.push_back(seen   ? seenForeign(i, *last, parameters)
+                             : last ? unseenForeign(i, *last, parameters)
+                                    : seenForeign(i, at_start, parameters));
+    const ForeignBody& body = foreign_bodies.back();
+    surroundings.addObstacle(body.shape, body.stamp, body.inflation);
+  }
+
   /// Tells the surroundings what the UAV does until it has a new plan, and how far a new one can take it.
   void prepare(std::size_t i, const Snapshot& snapshot, double epoch) {
     UavRecord& uav = uavs[i];
-    if (uav.reference_pending) uav.reference.time_zero = epoch;
-    uav.reference_pending = false;
-    const bool measured = judged[i] == Reason::kNone;
-    if (measured) uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (uav.reference_pending && uav.task.mode == FlightMode::kFlying) {
+      uav.reference.time_zero = epoch;
+      uav.reference_pending = false;
+    }
+    if (isToPlan(i)) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
+      director.direct(epoch, snapshot.uavs[i], uav);
+    } else if (isPlannedFor(uav.task.mode)) {
+      uav.loseSight(parameters);
+    }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
       surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
     }
-    if (measured) surroundings.setPlanning(i, uav.start);
+    if (isToPlan(i)) surroundings.setPlanning(i, uav.start);
   }
 
   /// There is no time to plan for the UAV.
@@ -162,6 +234,7 @@ class SwarmPlanner::Impl {
     report.uavs[i].planned = uavs[i].planned;
     report.uavs[i].state = UavState::kFallback;
     report.uavs[i].reason = Reason::kOverrun;
+    reportTask(uavs[i].task, report.uavs[i]);
   }
 
   /// Whose turn came first of those that missed it comes first in the next cycle, so that nobody misses it for ever.
@@ -175,8 +248,11 @@ class SwarmPlanner::Impl {
     }
   }
 
+  std::vector<Vector3> starts;  ///< of the scenario [m]
   TrackMemory tracks;
+  std::vector<ForeignBody> foreign_bodies;  ///< of this cycle
   Surroundings surroundings;
+  FlightDirector director;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
@@ -225,6 +301,19 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   if (!(speed >= 0.0 && speed <= kMostSpeed)) throw std::invalid_argument("speed must be within [0, 1000] m/s");
   impl_->uavs[uav].setReference(path, start, speed);
 }
+
+CommandAnswer SwarmPlanner::command(std::size_t uav, FlightCommand command) {
+  if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
+  return impl_->command(uav, command);
+}
+
+FlightMode SwarmPlanner::mode(std::size_t uav) const { return impl_->uavs[uav].task.mode; }
+
+void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
+  command(uav, foreign ? FlightCommand::kLeave : FlightCommand::kJoin);
+}
+
+bool SwarmPlanner::isForeign(std::size_t uav) const { return impl_->uavs[uav].foreign; }
 
 void SwarmPlanner::reset() { impl_->reset(); }
 

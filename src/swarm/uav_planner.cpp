@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
+#include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
@@ -45,6 +46,11 @@ FlightBounds reserved(FlightBounds bounds) {
   return bounds;
 }
 
+/// A UAV measured farther from its motion than this is not on it [m]: neither tracking nor noise explains that.
+double leastDistanceOff(const Parameters& parameters) {
+  return 2.0 * std::max(parameters.limits.tracking_margin, parameters.input.odometry_noise);
+}
+
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
 }
@@ -55,6 +61,7 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   reference = MovingTarget();
   reference.path = ReferencePath(path);
   reference.start = arc_length;
+  given_start = arc_length;
   reference.speed = speed;
   reference_pending = true;
   on_reference = false;
@@ -64,18 +71,34 @@ void UavRecord::reset() {
   motions.clear();
   planned = false;
   deviation.setZero();
+  task.enter(task.mode);
+  reference.start = given_start;
   reference_pending = true;
   on_reference = false;
   active.count = 0;
+  monitor = OdometryMonitor();
+  unseen = false;
+  last_place.reset();
 }
 
-void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters) {
+void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                             const FlightBounds& bounds) {
   motions.compare(measurement.stamp, measurement.p, kLostMargins * parameters.limits.tracking_margin);
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   const Vector3 measured = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());
   deviation += kDeviationGain * (measured - deviation);
   const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
-  if (!expected || (rests && measured.norm() > kMoved)) {
+  const bool is_back = unseen;
+  unseen = false;
+  off_plan = monitor.noteDeviation(measured.norm(), measurement.stamp, parameters.input);
+  const bool moved = rests && measured.norm() > kMoved;
+  const bool is_elsewhere = is_back && (motions.empty() || measured.norm() > leastDistanceOff(parameters));
+  if (!moved && (off_plan || is_elsewhere)) {
+    off_plan_distance = measured.norm();
+    startAnew(measurement, epoch, parameters, bounds);
+    return;
+  }
+  if (!expected || moved) {
     start = predictFromMeasurement(measurement, epoch);
     if (expected || motions.empty()) {
       motions.clear();
@@ -94,10 +117,59 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
   start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
 }
 
+void UavRecord::startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                          const FlightBounds& bounds) {
+  start = predictFromMeasurement(measurement, epoch);
+  StopManoeuvre stop;
+  planStop(start, parameters.time.sampling_time, relieveBounds(bounds, start, kBoundSlack), stop);
+  CommittedMotion braking;
+  braking.assignStop(epoch, stop);
+  motions.startAnew(braking);
+  planned = true;
+  deviation.setZero();
+}
+
+void UavRecord::setForeign(bool is_foreign) {
+  if (foreign == is_foreign) return;
+  foreign = is_foreign;
+  unseen = !foreign;  // where it comes from is not what it was to fly
+  last_place.reset();
+  on_reference = false;
+}
+
+bool UavRecord::isOnMotion(const UavMeasurement& measurement, const Parameters& parameters) const {
+  const CommittedMotion& flown = motions.flown();
+  if (measurement.stamp > flown.epoch() + flown.duration()) return false;
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  return !expected || (measurement.p - expected->p).norm() <= leastDistanceOff(parameters);
+}
+
+void UavRecord::forgetMotions() {
+  motions.clear();
+  planned = false;
+  deviation.setZero();
+}
+
+void UavRecord::loseSight(const Parameters& parameters) {
+  if (unseen) return;
+  unseen = true;
+  last_place.reset();
+  const std::optional<UavMeasurement>& seen = monitor.trusted();
+  const std::optional<KinematicState> expected =
+      seen ? motions.expectedAt(seen->stamp) : std::optional<KinematicState>();
+  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) last_place = seen->p;
+}
+
+MotionDoubt UavRecord::doubt(const InputParameters& input) const {
+  if (!monitor.trusted()) return {};
+  return {monitor.trusted()->stamp, input.lost_growth_rate, input.lost_growth_limit};
+}
+
 UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                        std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies)
     : parameters_(parameters),
       limits_(makeCheckLimits(parameters, workspace ? &*workspace : nullptr)),
+      workspace_floor_(limits_.bounds.workspace.min.z()),
       sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
@@ -110,10 +182,26 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
   surroundings.collect(uav, check_);
-  const KinematicState committed = record.motions.flown().at(epoch);
-  committed_ = committed.p;
+  committed_ = record.motions.flown().at(epoch).p;
   has_proposal_ = false;
+  flies_whole_plan_ = false;
+  const double floor = record.task.workspaceFloor(workspace_floor_, parameters_.limits.tracking_margin);
+  limits_.bounds.workspace.min.z() = problem_.bounds.workspace.min.z() = floor;
+  limitDoubts(epoch, record.motions.flown());
+  if (rest(uav, epoch, record, surroundings)) {
+    poseProblem(uav, epoch, record, surroundings);
+  } else {
+    report.reason = flyOn(uav, epoch, record, surroundings, report);
+  }
+  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
+  fillReport(epoch, record, report);
+  report.solve_time = stopwatch.elapsed();
+}
 
+Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                         UavReport& report) {
+  const KinematicState committed = record.motions.flown().at(epoch);
+  record.task.is_quickest_stop = false;
   CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
   // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on
   // from.
@@ -122,16 +210,32 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
     record.start = committed;
     verdict = propose(uav, epoch, record, surroundings, report);
   }
-  if (verdict.accepted()) {
-    record.motions.commit(motion_);
-    record.planned = true;
-    report.reason = report.stays ? Reason::kPlanRefused : Reason::kNone;
-  } else {
-    report.reason = fallBack(uav, epoch, record, surroundings);
+  if (!verdict.accepted()) return fallBack(uav, epoch, record, surroundings);
+  record.motions.commit(motion_);
+  record.planned = true;
+  return report.stays ? Reason::kPlanRefused : Reason::kNone;
+}
+
+bool UavPlanner::rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
+  FlightTask& task = record.task;
+  if (task.mode == FlightMode::kLanded) {
+    record.motions.goOn(epoch);
+    return true;
   }
-  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
-  fillReport(epoch, record, report);
-  report.solve_time = stopwatch.elapsed();
+  if (task.mode != FlightMode::kStopped || !record.planned) return false;
+  if (task.is_quickest_stop && !record.motions.newestIsLost()) {
+    record.motions.goOn(epoch);
+    const CommittedMotion& motion = record.motions.newest();
+    return checkClearance(motion, motion.start(), limits_, check_).accepted();
+  }
+  const KinematicState x = record.motions.flown().at(epoch);
+  StopManoeuvre stop;
+  planStop(x, problem_.dt, relieveBounds(limits_.bounds, x, kBoundSlack), stop);
+  stop_.assignStop(epoch, stop);
+  task.is_quickest_stop = stop.within_bounds && surroundings.isWithinArea(uav, stop_) &&
+                          checkClearance(stop_, committed_, limits_, check_).accepted();
+  if (task.is_quickest_stop) record.motions.commit(stop_);
+  return task.is_quickest_stop;
 }
 
 CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
@@ -172,6 +276,19 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     return {};
   }
   return verdict;
+}
+
+void UavPlanner::limitDoubts(double epoch, const CommittedMotion& flown) {
+  bool is_kept = false;
+  for (OtherMotion& other : check_.uavs) {
+    if (other.doubt.isNone()) continue;
+    if (!is_kept) {
+      kept_ = flown;
+      kept_.dropPieces(kept_.endedPieces(epoch));
+      is_kept = true;
+    }
+    other.doubt = other.doubt.times(bearableShare(kept_, other, limits_));
+  }
 }
 
 CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan) {
@@ -236,13 +353,17 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   report.pair_distance = clearance.pair;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();
-  report.lag = problem_.targets[0].arc_length - record.progress;
-  if (report.reason == Reason::kNone && !report.solved) report.reason = Reason::kSolverFailed;
-  if (report.reason == Reason::kNone && record.deviation.norm() > parameters_.limits.tracking_margin) {
-    report.reason = Reason::kStraying;
+  report.lag = problem_.targets[0].arc_length - problem_.progress;
+  const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
+  if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
+  const bool on_new_plan = report.reason == Reason::kNone;
+  if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
+  if (on_new_plan && record.off_plan) {
+    report.reason = Reason::kOffPlan;
+    report.deviation = record.off_plan_distance;
   }
-  const bool on_new_plan = report.reason == Reason::kNone || report.reason == Reason::kStraying;
   report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
+  reportTask(record.task, report);
 }
 
 void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
@@ -256,17 +377,19 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const ReferencePath& path = record.reference.path;
-  const PathPoint foot = record.on_reference ? path.nearest(record.start.p, record.progress)
-                                             : path.nearest(record.start.p, 0.0, kInfinity);
-  record.progress = foot.arc_length;
-  record.on_reference = true;
+  const bool on_mission = record.task.mode == FlightMode::kFlying;
+  const MovingTarget& target = on_mission ? record.reference : record.task.target;
+  bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
+  double& progress = on_mission ? record.progress : record.task.target_progress;
+  progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
+                     : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
+  on_path = true;
   problem_.epoch = epoch;
   problem_.start = record.start;
-  problem_.path = &path;
-  problem_.progress = record.progress;
+  problem_.path = &target.path;
+  problem_.progress = progress;
   for (std::size_t k = 0; k <= kHorizon; ++k) {
-    problem_.targets[k] = record.reference.at(epoch + static_cast<double>(k) * problem_.dt);
+    problem_.targets[k] = target.at(epoch + static_cast<double>(k) * problem_.dt);
   }
   surroundings.collect(uav, problem_);
 }

@@ -85,6 +85,12 @@ TEST(ParameterRules, TrackingErrorIsHalfOfTheSmallerMargin) {
   EXPECT_DOUBLE_EQ(resolved({{"tracking_margin", 0.3}, {"tracking_error", 0.01}}).limits.tracking_error, 0.01);
 }
 
+TEST(ParameterRules, AUavThatIsNotSeenIsGivenTwiceThePairDistanceAtMost) {
+  EXPECT_EQ(resolved({}).input.lost_growth_limit, 2.0);
+  EXPECT_EQ(resolved({{"pair_distance", 0.5}}).input.lost_growth_limit, 0.5);
+  EXPECT_EQ(resolved({{"pair_distance", 0.5}, {"lost_growth_limit", 3.0}}).input.lost_growth_limit, 3.0);
+}
+
 // Sent once, three trajectories in a row are lost too often; over links that lose nothing repeats only cost.
 TEST(ParameterRules, TrajectoriesAreRepeatedWhereMessagesAreLost) {
   EXPECT_EQ(resolved({}).input.setpoint_repeats, 0);

@@ -142,6 +142,8 @@ const FaultCase kUav[] = {
     {"NegativeArcLength", "start: 20.0", "start: -1", "uavs[0].target.start", "found -1, expected a number >= 0"},
     {"RepeatedKey", "{start: 20.0, speed: 3.0}", "{start: 20.0, speed: 3.0, speed: 4.0}", "uavs[0].target.speed",
      "repeated key, first given in line 8"},
+    {"ExternalIsANumber", "{start: 20.0, speed: 3.0}", "{start: 20.0, speed: 3.0}\n    external: 1", "uavs[0].external",
+     "found 1, expected true or false"},
     {"TargetIsANumber", "{start: 20.0, speed: 3.0}", "3.0", "uavs[0].target", "found 3.0, expected a map"},
 };
 INSTANTIATE_TEST_SUITE_P(Uav, ScenarioFault, testing::ValuesIn(kUav), caseName);

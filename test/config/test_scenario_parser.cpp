@@ -40,6 +40,7 @@ void expectSame(const Scenario& a, const Scenario& b) {
     EXPECT_EQ(a.uavs[i].reference, b.uavs[i].reference);
     EXPECT_EQ(a.uavs[i].target.start, b.uavs[i].target.start);
     EXPECT_EQ(a.uavs[i].target.speed, b.uavs[i].target.speed);
+    EXPECT_EQ(a.uavs[i].external, b.uavs[i].external);
   }
   ASSERT_EQ(a.obstacles.size(), b.obstacles.size());
   for (std::size_t i = 0; i < a.obstacles.size(); ++i) {
@@ -112,6 +113,16 @@ uavs:
   EXPECT_TRUE(scenario.obstacles.empty());
   EXPECT_FALSE(scenario.workspace);
   EXPECT_TRUE(scenario.overrides.empty());
+  EXPECT_FALSE(scenario.uavs[0].external);
+}
+
+TEST(ScenarioParser, AUavMayBelongToAnotherSystem) {
+  Scenario scenario = crossing();
+  scenario.uavs[1].external = true;
+  const Scenario read = parsed(toYaml(scenario));
+  EXPECT_FALSE(read.uavs[0].external);
+  EXPECT_TRUE(read.uavs[1].external);
+  expectSame(read, scenario);
 }
 
 TEST(ScenarioWriter, ReadsBackExactly) {

@@ -280,6 +280,28 @@ TEST(Growth, MovesTheHalfSpaceOfEachSegmentOutUntilItEnds) {
   }
 }
 
+// At every stage no less than the pair ellipsoid with that much longer semi-axes.
+TEST(Growth, OfAUavKeepsClearOfTheGrownEllipsoid) {
+  Random random(17);
+  for (int trial = 0; trial < 500; ++trial) {
+    const double horizontal = random.logUniform(0.3, 4.0);
+    const double vertical = random.logUniform(0.3, 4.0);
+    PredictedMotion motion;
+    predictResting(Vector3::Zero(), motion);
+    const DistanceGrowth growth{random.uniform(0.0, 0.3), random.uniform(0.0, 2.0)};
+    const MovingBody body = MovingBody::fromUav(motion, horizontal, vertical, Vector3::UnitX(), growth);
+    const int k = random.integer(0, kHorizon - 1);
+    const double grown = body.growth(k);
+    const Vector3 r = randomRelative(random, horizontal + grown);
+    if (segmentClearance(body, k, {r, r, r, r}).clearance >= 0.0) {
+      ASSERT_GE(pairGauge(r, horizontal + grown, vertical + grown), 1.0 - 1e-9) << trial;
+    } else {
+      const double longer = 1.0 + grown / std::min(horizontal, vertical);
+      ASSERT_LE(pairGauge(r, longer * horizontal, longer * vertical), 1.0 + 1e-9) << trial;
+    }
+  }
+}
+
 TEST(Growth, LiesWithinBoxAndRadius) {
   Random random(16);
   for (int trial = 0; trial < 300; ++trial) {

@@ -142,6 +142,20 @@ TEST(MovingTarget, MovesFromTimeZeroAndStopsAtTheEnd) {
   EXPECT_NEAR(after.arc_length, 7.0, 1e-12);
 }
 
+TEST(ReferencePath, AssignedAsALineIsTheSameAsOneMadeOfItsEnds) {
+  const Vector3 begin(1, 2, 3);
+  const Vector3 end(1, 2, -1);
+  ReferencePath path(corner());
+  path.assignLine(begin, end);
+  EXPECT_EQ(path.points(), ReferencePath({begin, end}).points());
+  EXPECT_EQ(path.length(), 4.0);
+  EXPECT_EQ(path.at(1.0).position, Vector3(1, 2, 2));
+  EXPECT_EQ(path.at(1.0).tangent, -Vector3::UnitZ());
+  path.assignLine(begin, begin);
+  EXPECT_EQ(path.length(), 0.0);
+  EXPECT_EQ(path.nearest(Vector3(5, 5, 5), 0.0).position, begin);
+}
+
 TEST(MovingTarget, StartingBeyondTheEndRestsThere) {
   const MovingTarget target{ReferencePath(corner()), 50.0, 2.0, 0.0};
   EXPECT_LT((target.at(1.0).p - Vector3(3, 4, 1)).norm(), 1e-12);

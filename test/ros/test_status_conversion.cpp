@@ -148,5 +148,27 @@ TEST(ExplainReason, LeavesOtherReasonsAsTheyAre) {
       << "it would be told of a plan that does not fly";
 }
 
+TEST_F(StatusConversion, TellsWhatACommandMakesAUavDo) {
+  for (std::size_t uav = 0; uav < 6; ++uav) measure(uav);
+  reason(0);
+  EXPECT_FALSE(statusMessage().uavs[0].commanded);
+  planner_.command(0, FlightCommand::kHold);
+  planner_.command(1, FlightCommand::kStop);
+  planner_.command(2, FlightCommand::kLand);
+  planner_.command(3, FlightCommand::kLeave);
+  EXPECT_EQ(reason(0), "holds by command");
+  EXPECT_EQ(reason(1), "stopped by command");
+  EXPECT_EQ(reason(2).find("lands by command"), 0U);
+  EXPECT_EQ(reason(3), "flown by another system");
+  EXPECT_EQ(reason(4), "");
+  const PlannerStatus message = statusMessage();
+  EXPECT_EQ(message.uavs[0].state, UavStatus::HOLDING);
+  EXPECT_EQ(message.uavs[1].state, UavStatus::STOPPED);
+  EXPECT_EQ(message.uavs[2].state, UavStatus::LANDING);
+  EXPECT_EQ(message.uavs[3].state, UavStatus::HOLDING);
+  EXPECT_EQ(message.uavs[4].state, UavStatus::TRACKING);
+  for (std::size_t uav = 0; uav < 6; ++uav) EXPECT_EQ(message.uavs[uav].commanded, uav < 4) << uav;
+}
+
 }  // namespace
 }  // namespace swarm_planner

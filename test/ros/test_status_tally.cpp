@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "swarm_planner/ros/status_tally.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -28,6 +29,15 @@ TEST(Concern, TellsAlarmsFromCautions) {
   EXPECT_EQ(concernOf(uavStatus(UavStatus::FALLBACK, "refused")), Concern::kCaution);
   EXPECT_EQ(concernOf(uavStatus(UavStatus::FALLBACK, "no way out", true)), Concern::kAlarm);
   EXPECT_EQ(concernOf(uavStatus(UavStatus::LOST, "silent")), Concern::kAlarm);
+}
+
+TEST(Concern, OfACommandThatIsCarriedOutIsNone) {
+  UavStatus uav = uavStatus(UavStatus::LANDING, "descends");
+  EXPECT_EQ(concernOf(uav), Concern::kCaution);
+  uav.commanded = true;
+  EXPECT_EQ(concernOf(uav), Concern::kNone);
+  uav.alarm = true;
+  EXPECT_EQ(concernOf(uav), Concern::kAlarm);
 }
 
 TEST(Concern, AShorterStepThatPassedIsNone) {

@@ -160,7 +160,8 @@ SampledSlack sampledPairSlack(const CheckScene& scene, const OtherMotion& entry)
   const double end = std::min(std::max(scene.motion.duration(), other.duration() - lag) + kSample,
                               entry.valid_until - scene.motion.epoch());
   for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
-    const double slack = (gauge(apart(time), waived) - 1.0) * (std::min(horizontal, vertical) + waived);
+    const double extra = waived + entry.doubt.at(scene.motion.epoch() + time);
+    const double slack = (gauge(apart(time), extra) - 1.0) * (std::min(horizontal, vertical) + extra);
     if (slack < result.slack) {
       result.slack = slack;
       result.time = time;

@@ -66,7 +66,7 @@ TEST(PlanCheck, KeepsTheDoubtOfATrackBeyondTheDistance) {
     InputParameters input;
     input.track_sigmas = 2.0;
     input.track_growth_time = 1.5;
-    scene.surroundings.obstacles.push_back(predictObstacle(track, input, 0.5));
+    scene.surroundings.obstacles.push_back(predictObstacle(track.shape, track.stamp, inflationOf(track, input), 0.5));
     return scene.check().accepted();
   };
   // Passed at 2 s, 2.5 s after the stamp, with half a metre more than the 0.5 m without doubt.

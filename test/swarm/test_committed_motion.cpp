@@ -41,6 +41,17 @@ TEST(CommittedMotion, IsItsPlanThenItsStopThenRest) {
   }
 }
 
+TEST(CommittedMotion, KnowsHowManyPiecesHaveEnded) {
+  Random random(2);
+  CheckScene scene;
+  scene.planRandomly(random, 4.0);
+  const CommittedMotion& motion = scene.motion;
+  EXPECT_EQ(motion.endedPieces(motion.epoch() - 100.0), 0);
+  EXPECT_EQ(motion.endedPieces(motion.epoch() + 0.9 * motion.dt()), 0);
+  EXPECT_EQ(motion.endedPieces(motion.epoch() + 3.1 * motion.dt()), 3);
+  EXPECT_EQ(motion.endedPieces(motion.epoch() + 1e9), motion.pieces());
+}
+
 TEST(CommittedMotion, HasTheJerksOfItsPieces) {
   Random random(1);
   CheckScene scene;

@@ -87,6 +87,17 @@ TEST_F(TwoMotions, WereFlownOneAfterTheOther) {
   EXPECT_GT((first_.at(101.2).p - second_.at(101.2).p).norm(), 0.1) << "they hardly differ: this shows nothing";
 }
 
+// The UAV is elsewhere: what it was to fly before tells nothing of where it is, but it may still try.
+TEST_F(TwoMotions, LeaveTheOneFlownAsTheOlderWhenTheUavStartsAnew) {
+  const CommittedMotion third = straight(102.0, Vector3(50, 0, 0), Vector3::UnitY());
+  memory_.startAnew(third);
+  EXPECT_TRUE(areClose(memory_.newest().at(103.0), third.at(103.0)));
+  ASSERT_NE(memory_.older(), nullptr);
+  EXPECT_TRUE(areClose(memory_.older()->at(103.0), second_.at(103.0)));
+  EXPECT_FALSE(memory_.expectedAt(101.9));
+  EXPECT_TRUE(areClose(*memory_.expectedAt(102.5), third.at(102.5)));
+}
+
 TEST_F(TwoMotions, AreToldApartByOdometry) {
   const Vector3 p = second_.at(101.5).p;
   const Vector3 off = (first_.at(101.5).p - p).normalized();

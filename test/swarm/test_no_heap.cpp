@@ -91,7 +91,8 @@ class NoHeap : public ::testing::Test {
 /// Flies `cycles` cycles and returns how often plan() called into the heap. The first cycle counts too: with several
 /// threads any of them may get its first UAV in a later cycle.
 std::int64_t heapCallsOfFlight(const Mission& mission, int cycles,
-                               const std::function<void(int, Snapshot&)>& tamper = nullptr) {
+                               const std::function<void(int, Snapshot&)>& tamper = nullptr,
+                               const std::function<void(int, SwarmPlanner&)>& command = nullptr) {
   SwarmPlanner planner(mission);
   const double period = mission.parameters.time.cycle_period;
   Snapshot snapshot;
@@ -118,6 +119,7 @@ std::int64_t heapCallsOfFlight(const Mission& mission, int cycles,
       snapshot.obstacles.push_back(track);
     }
     if (tamper) tamper(cycle, snapshot);
+    if (command) command(cycle, planner);
     sum += heapCalls([&] { planner.plan(snapshot, snapshot.now + period); });
   }
   return sum;
@@ -166,6 +168,40 @@ TEST_F(NoHeap, FallbacksAllocateNothing) {
     if (cycle % 5 == 0) snapshot.obstacles.clear();
   };
   EXPECT_EQ(heapCallsOfFlight(makeMission(paperSix(), {}, "paper_six"), 300, tamper), 0);
+}
+
+// The commands themselves come between cycles and may; what they set off may not.
+TEST_F(NoHeap, CarryingOutCommandsAllocatesNothing) {
+  Random random(5);
+  const auto command = [&random](int cycle, SwarmPlanner& planner) {
+    const auto order = kFlightCommands[static_cast<std::size_t>(random.integer(0, 5))];
+    for (std::size_t uav = static_cast<std::size_t>(cycle) % 3; uav < planner.uavCount(); uav += 3) {
+      if (cycle % 8 == 0) planner.command(uav, order);
+    }
+  };
+  EXPECT_EQ(heapCallsOfFlight(makeMission(circleSwap(12, 8.0, 1), {}, "circle_swap"), 300, nullptr, command), 0);
+}
+
+TEST_F(NoHeap, LandingInACrowdAllocatesNothing) {
+  const auto command = [](int cycle, SwarmPlanner& planner) {
+    for (std::size_t uav = 0; uav < planner.uavCount() && cycle == 8; ++uav) {
+      planner.command(uav, FlightCommand::kLand);
+    }
+  };
+  EXPECT_EQ(heapCallsOfFlight(makeMission(circleSwap(12, 8.0, 1), {}, "circle_swap"), 100, nullptr, command), 0);
+}
+
+TEST_F(NoHeap, LostAndForeignUavsAllocateNothing) {
+  // One goes, frozen where it is not to be, one jumps for good, one belongs to somebody else.
+  Scenario scenario = circleSwap(12, 10.0, 1);
+  scenario.uavs[3].external = true;
+  const auto tamper = [](int cycle, Snapshot& snapshot) {
+    if (cycle == 19) snapshot.uavs[1].p.z() += 1.0;
+    if (cycle >= 20) snapshot.uavs[1].received = false;
+    if (cycle >= 30) snapshot.uavs[2].p.x() += 50.0;
+    if (cycle >= 40) snapshot.uavs[3].received = false;
+  };
+  EXPECT_EQ(heapCallsOfFlight(makeMission(scenario, {}, "circle_swap"), 100, tamper), 0);
 }
 
 TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {

@@ -3,9 +3,11 @@
 // What is left out here no plan keeps clear of.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "support/flight_problem.hpp"
@@ -236,6 +238,52 @@ TEST_F(SurroundingsTest, FindNeighboursByTheOlderMotionToo) {
   CheckSurroundings check;
   surroundings.collect(0, check);
   EXPECT_EQ(check.uavs.size(), 2U);
+}
+
+// A UAV that is not seen: farther off, at once and more later, and where it was seen last.
+TEST_F(SurroundingsTest, KeepFartherFromAUavThatIsNotSeen) {
+  const MotionDoubt doubt{kEpoch - 1.0, 0.4, 3.0};
+  const auto surroundingsWith = [&](const std::optional<Vector3>& last_place, bool is_lost) {
+    Surroundings surroundings = makeSurroundings(2);
+    surroundings.setMotions(1, resting(Vector3(0, 5, 0)), nullptr);
+    if (is_lost) surroundings.setDoubt(1, doubt, last_place);
+    surroundings.findNeighbours();
+    return surroundings;
+  };
+  Surroundings seen = surroundingsWith({}, false);
+  ASSERT_EQ(collected(seen).size(), 1U);
+  const double distance = flight_.problem.bodies[0].distance();
+  CheckSurroundings check;
+  seen.collect(0, check);
+  EXPECT_TRUE(check.uavs[0].doubt.isNone());
+
+  Surroundings lost = surroundingsWith(Vector3(0, 9, 0), true);
+  ASSERT_EQ(collected(lost).size(), 2U);
+  const MovingBody& body = flight_.problem.bodies[0];
+  EXPECT_NEAR(body.distance(), distance + 0.4, 1e-12);
+  EXPECT_NEAR(body.growth(0), 0.4 * flight_.problem.dt, 1e-12);
+  EXPECT_NEAR(body.growth(kHorizon - 1), std::min(0.4 * kHorizon * flight_.problem.dt, 2.6), 1e-12);
+  EXPECT_EQ(flight_.problem.bodies[1].point(3, 0), Vector3(0, 9, 0));
+  EXPECT_NE(flight_.problem.bodies[1].identity(), body.identity());
+  lost.collect(0, check);
+  ASSERT_EQ(check.uavs.size(), 2U);
+  for (const OtherMotion& other : check.uavs) EXPECT_EQ(other.doubt.limit, 3.0);
+  EXPECT_EQ(check.uavs[1].motion->restingPlace(), Vector3(0, 9, 0));
+  EXPECT_EQ(surroundingsWith({}, true).neighbours().size(), 2U);
+}
+
+// Only the doubt brings the two together.
+TEST_F(SurroundingsTest, FindNeighboursByTheDoubtToo) {
+  const double reach = flight_.parameters.limits.max_speed * (kHorizon + 1) * flight_.problem.dt;
+  for (const double limit : {0.0, 5.0}) {
+    Surroundings surroundings = makeSurroundings(2);
+    surroundings.setMotions(1, resting(Vector3(0, reach + 5.0, 0)), nullptr);
+    surroundings.setDoubt(1, {kEpoch, 1.0, limit}, {});
+    surroundings.findNeighbours();
+    CheckSurroundings check;
+    surroundings.collect(0, check);
+    EXPECT_EQ(check.uavs.size(), limit > 0.0 ? 1U : 0U);
+  }
 }
 
 TEST_F(SurroundingsTest, DemandOfTheCheckWhatATrackDoes) {

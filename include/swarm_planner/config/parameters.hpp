@@ -49,6 +49,12 @@ struct LimitParameters {
   bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 
+/// How UAVs land.
+struct LandingParameters {
+  double speed = 0.5;          ///< of the descent [m/s]
+  double ground_height = 0.0;  ///< z of a landed UAV's centre in the planning frame [m]
+};
+
 /// Sampling of the horizon and the cycle.
 struct TimeParameters {
   double sampling_time = 0.3;  ///< dt of the horizon [s]; unset: by rule
@@ -90,17 +96,21 @@ constexpr double kClockTolerance = 0.05;
 
 /// Inputs of the planner and how long they are believed.
 struct InputParameters {
-  double odometry_timeout = 0.5;   ///< older odometry is not used [s]
-  double track_timeout = 1.0;      ///< an obstacle track is predicted for at most so long [s]
-  int max_tracks = 1000;           ///< of more obstacle tracks those nearest to the UAVs are used
-  double track_sigmas = 3.0;       ///< how many standard deviations of a track are kept clear of
-  double track_growth_time = 2.0;  ///< the velocity of a track is in doubt for at most so long after its stamp [s]
-  double tracking_time = 0.5;      ///< time constant with which a vehicle's tracking deviation decays [s]
-  double odometry_noise = 0.15;    ///< deviations up to this may be noise alone [m]
-  int lost_setpoints = 1;          ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
-  int setpoint_repeats = 0;        ///< each trajectory is sent so many times more, spread over its cycle; unset: by
-                                   ///< rule
-  bool autostart = true;           ///< start as soon as every UAV's odometry has arrived
+  double odometry_timeout = 0.5;     ///< older odometry is not used [s]
+  double track_timeout = 1.0;        ///< an obstacle track is predicted for at most so long [s]
+  int max_tracks = 1000;             ///< of more obstacle tracks those nearest to the UAVs are used
+  double track_sigmas = 3.0;         ///< how many standard deviations of a track are kept clear of
+  double track_growth_time = 2.0;    ///< the velocity of a track is in doubt for at most so long after its stamp [s]
+  double tracking_time = 0.5;        ///< time constant with which a vehicle's tracking deviation decays [s]
+  double odometry_noise = 0.15;      ///< deviations up to this may be noise alone [m]
+  double odometry_doubt_time = 1.0;  ///< how long a jump, a standstill or a deviation is doubted [s]
+  double off_plan_distance = 1.0;    ///< a UAV so far from its motion for odometry_doubt_time is planned for anew [m]
+  double lost_growth_rate = 0.3;     ///< by which others keep farther from a UAV that is not seen [m/s]
+  double lost_growth_limit = 2.0;    ///< up to this [m]; unset: pair_distance
+  int lost_setpoints = 1;            ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
+  int setpoint_repeats = 0;          ///< each trajectory is sent so many times more, spread over its cycle; unset: by
+                                     ///< rule
+  bool autostart = true;             ///< start as soon as every UAV's odometry has arrived
 };
 
 /// The simulated quadrotor's controller, sensors and rates, the wind, and the links between vehicles and ground
@@ -129,6 +139,7 @@ struct SimulationParameters {
 struct Parameters {
   VehicleParameters vehicle;
   LimitParameters limits;
+  LandingParameters landing;
   TimeParameters time;
   CostParameters cost;
   SqpParameters sqp;

@@ -24,6 +24,7 @@ struct ScenarioUav {
   Vector3 start = Vector3::Zero();  ///< [m]
   std::vector<Vector3> reference;   ///< polyline [m], at least one point; length zero means: stay
   TargetMotion target;
+  bool external = false;  ///< another system flies it: avoided, not planned for
 };
 
 /// One superellipsoid obstacle with constant velocity, eq. (7) and (19).

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "swarm_planner/experiments/cycle_planner.hpp"
 #include "swarm_planner/experiments/run_result.hpp"
+#include "swarm_planner/simulation/external_flight.hpp"
 #include "swarm_planner/simulation/fault_injector.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/simulation/quad_simulator.hpp"
@@ -43,6 +45,7 @@ class RunDirector {
 /// Plans are sampled at kSetpointPeriod and sent to the vehicles, setpoint_repeats times more before the next cycle.
 /// The first epoch is t = 0: obstacles are at their start and targets begin to move then. The vehicles hover from t =
 /// -cycle_period on, where gusts set in; before that they stand at their start while the first messages are under way.
+/// External UAVs fly behind their targets (ExternalFlight); they are measured and count like all others.
 ///
 /// The scenario's faults are injected. While the planner is dead nothing is planned or sent; then it is restarted.
 class ClosedLoopRun {
@@ -70,7 +73,7 @@ class ClosedLoopRun {
   void receiveTrack(const TrackedObstacle& track);
   double obstacleTime(std::size_t index, double t) const;
   void planCycle(double now, double epoch, const std::vector<RunObserver*>& observers);
-  /// To every vehicle that the last cycle left a motion to fly.
+  /// To every vehicle that the last cycle left a motion to fly, and to those that another system flies.
   void sendSetpoints(double now);
   void receiveSetpoints(std::size_t uav, double now);
   void record(const CycleReport& report);
@@ -80,6 +83,7 @@ class ClosedLoopRun {
   const Mission& mission_;
   CyclePlanner& planner_;
   std::vector<QuadSimulator> vehicles_;
+  std::vector<std::optional<ExternalFlight>> externals_;  ///< of the vehicles that another system flies
   std::vector<Superellipsoid> obstacles_at_start_;
   std::vector<Superellipsoid> obstacles_;
   double time_;  ///< of vehicles and obstacles [s]

@@ -32,9 +32,11 @@ class MovingBody {
   /// S = `level` (e^eps_s) at the horizon's start, more by `growth` later. The obstacle must outlive the body.
   static MovingBody fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
                                  const DistanceGrowth& growth = {});
-  /// Another UAV; the pair ellipsoid has the semi-axes `horizontal` and `vertical` [m]. `apart`: unit vector along
-  /// which the two part where they coincide, opposite for the two of a pair. The motion must outlive the body.
-  static MovingBody fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart);
+  /// Another UAV; the pair ellipsoid has the semi-axes `horizontal` and `vertical` [m] at the horizon's start, the
+  /// shorter one grows by `growth` later and the longer one in proportion. `apart`: unit vector along which the two
+  /// part where they coincide, opposite for the two of a pair. The motion must outlive the body.
+  static MovingBody fromUav(const PredictedMotion& motion, double horizontal, double vertical, const Vector3& apart,
+                            const DistanceGrowth& growth = {});
 
   /// Tells bodies of one problem apart; the same from cycle to cycle.
   std::uint32_t identity() const { return identity_; }

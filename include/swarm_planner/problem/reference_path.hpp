@@ -16,7 +16,7 @@ struct PathPoint {
 };
 
 /// The reference of one UAV: a polyline by arc length. Repeated points are dropped; a path of length
-/// zero is a single point with tangent e1. Nothing but the constructor allocates.
+/// zero is a single point with tangent e1. Nothing but what makes a path allocates.
 class ReferencePath {
  public:
   /// Points closer than this to the one before count as repeated [m].
@@ -25,6 +25,9 @@ class ReferencePath {
   ReferencePath() = default;
   /// At least one point, all finite [m].
   explicit ReferencePath(const std::vector<Vector3>& points);
+  /// Becomes the line from `begin` to `end` [m], a single point if they coincide. Takes no heap if this path has been
+  /// made of two different points or more before.
+  void assignLine(const Vector3& begin, const Vector3& end);
 
   double length() const { return arc_lengths_.empty() ? 0.0 : arc_lengths_.back(); }
   /// The point at `arc_length` [m], clamped to the path. At a corner the tangent is that of the segment to come.

@@ -14,6 +14,11 @@ constexpr char kStatusTopic[] = "status";                      // ~
 constexpr char kMarkersTopic[] = "markers";                    // ~
 constexpr char kSetReferenceService[] = "set_reference";       // ~
 constexpr char kInjectFaultService[] = "inject_fault";         // ~
+constexpr char kStartService[] = "start";                      // ~
+constexpr char kHoldService[] = "hold";                        // ~
+constexpr char kLandService[] = "land";                        // ~
+constexpr char kEmergencyStopService[] = "emergency_stop";     // ~
+constexpr char kCommandService[] = "command";                  // ~
 constexpr char kPlannerStatusTopic[] = "planner_node/status";  // kStatusTopic as other nodes see it
 constexpr char kClockTopic[] = "/clock";                       // absolute by ROS convention
 

@@ -12,6 +12,7 @@
 
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/SetReference.h"
+#include "swarm_planner/ros/command_services.hpp"
 #include "swarm_planner/ros/marker_publisher.hpp"
 #include "swarm_planner/ros/planner_diagnostics.hpp"
 #include "swarm_planner/ros/planner_inputs.hpp"
@@ -69,6 +70,7 @@ class PlannerNode {
   ros::Timer repeat_timer_;
   ros::WallTimer diagnostics_timer_;
   ros::ServiceServer set_reference_server_;
+  CommandServices commands_;
 };
 
 }  // namespace swarm_planner

@@ -24,16 +24,17 @@
 #include "swarm_planner/ros/quad_sim_options.hpp"
 #include "swarm_planner/ros/run_report.hpp"
 #include "swarm_planner/ros/sim_clock.hpp"
+#include "swarm_planner/simulation/external_flight.hpp"
 #include "swarm_planner/simulation/message_link.hpp"
 #include "swarm_planner/simulation/quad_simulator.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
 namespace swarm_planner {
 
-/// Flies every UAV of the scenario on the trajectories that it receives, publishes odometry and tf, makes /clock at
-/// speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to the scenario's end. Trajectories
-/// and odometry go over links that delay and lose them as the parameters of the simulation say. Faults of the scenario,
-/// and those that ~inject_fault asks for, are injected.
+/// Flies every UAV of the scenario on the trajectories that it receives, external ones behind their targets, publishes
+/// odometry and tf, makes /clock at speeds other than 1, and measures the run: every 10 ms from the planner's t = 0 to
+/// the scenario's end. Trajectories and odometry go over links that delay and lose them as the parameters of the
+/// simulation say. Faults of the scenario, and those that ~inject_fault asks for, are injected.
 class QuadSimNode {
  public:
   QuadSimNode(const Mission& mission, const QuadSimOptions& options);
@@ -53,6 +54,8 @@ class QuadSimNode {
   void catchUp();
   void restartClock(double now);
   void advance();
+  /// Commands of whoever flies the external UAVs.
+  void commandExternals();
   void measure();
   void publishOdometry(std::size_t uav);
   void observe();
@@ -62,6 +65,7 @@ class QuadSimNode {
   const QuadSimOptions options_;
   SimClock clock_;
   std::vector<QuadSimulator> quads_;
+  std::vector<std::optional<ExternalFlight>> externals_;  ///< of the UAVs that another system flies
   std::vector<MessageLink<SetpointTrajectory>> trajectory_links_;
   std::vector<MessageLink<nav_msgs::Odometry>> odometry_links_;
   FaultInjector faults_;

@@ -30,6 +30,8 @@ class CommittedMotion {
   /// Brakes at once.
   void assignStop(double epoch, const StopManoeuvre& stop);
   void assignRest(double epoch, const Vector3& position);
+  /// How many pieces have ended by `t` [s].
+  int endedPieces(double t) const;
   /// Forgets the first `count` pieces (at most all): what is left begins at a later epoch.
   void dropPieces(int count);
 

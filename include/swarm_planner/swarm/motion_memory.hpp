@@ -33,10 +33,15 @@ class MotionMemory {
 
   /// From motion.epoch() on the UAV is to fly `motion`.
   void commit(const CommittedMotion& motion);
+  /// The UAV has been found elsewhere: from motion.epoch() on it is to fly `motion`, and where it was to be before is
+  /// forgotten. What it was flying stays as what it may fly if `motion` does not arrive.
+  void startAnew(const CommittedMotion& motion);
   /// The UAV goes on with what it flies. Pieces that have ended by `epoch` [s] are forgotten; a rest begins anew there.
   void goOn(double epoch);
 
  private:
+  void push(const CommittedMotion& motion);
+
   std::array<CommittedMotion, 2> motions_;
   std::size_t newest_ = 0;
   int count_ = 0;

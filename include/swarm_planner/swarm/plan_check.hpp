@@ -6,6 +6,7 @@
 
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
+#include "swarm_planner/swarm/motion_doubt.hpp"
 
 namespace swarm_planner {
 
@@ -59,13 +60,15 @@ struct PredictedObstacle {
   double valid_until = std::numeric_limits<double>::infinity();  ///< not looked at later [s]
 };
 
-/// What a track demands: `least` [m] plus its inflation. The track must outlive the prediction.
-PredictedObstacle predictObstacle(const TrackedObstacle& track, const InputParameters& input, double least);
+/// What an obstacle seen at `stamp` [s] demands: `least` [m] plus its inflation. The shape must outlive the prediction.
+PredictedObstacle predictObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation,
+                                  double least);
 
 /// A motion that another UAV may be flying.
 struct OtherMotion {
   const CommittedMotion* motion = nullptr;
   double valid_until = std::numeric_limits<double>::infinity();  ///< not flown any more then [s]
+  MotionDoubt doubt{};  ///< demanded on top of the semi-axes: how far it may be from the motion
 };
 
 /// All that a motion has to keep clear of. Every motion that a UAV may be flying, as far as the station knows, is an

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "swarm_planner/config/parameters.hpp"
@@ -19,14 +21,20 @@ class Surroundings {
   Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles);
 
   /// The cycle's epoch [s]; obstacles and motions are set after it.
-  void setEpoch(double epoch) { epoch_ = epoch; }
+  void setEpoch(double epoch);
   /// Predicts the tracks, which have to outlive the cycle, to the epoch. `now`: of the cycle [s].
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
+  /// One more obstacle, seen at `stamp` [s]; after the tracks. It has to outlive the cycle.
+  void addObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation);
   /// Nothing is known of the UAV; others need not keep clear of it.
   void setUnknown(std::size_t uav);
   /// The UAV flies `newest`, unless its setpoints were lost: then `older` (null: no other), until the cycle after the
   /// newest one's sends others. Both have to outlive the cycle.
   void setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
+
+  /// The UAV, whose motions are set, is not seen: it may be off them by `doubt`. `last_place`: where it was seen last,
+  /// if others are to keep clear of that too [m].
+  void setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place);
 
   /// The same in the course of the cycle, for a UAV that has its new motion; within the area that others were told of.
   void replaceMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
@@ -55,12 +63,22 @@ class Surroundings {
   struct Motions {
     const CommittedMotion* newest = nullptr;  ///< null: unknown
     const CommittedMotion* older = nullptr;
-    Box box;  ///< of both [m]
+    Box box;              ///< of all motions, with the doubt [m]
+    MotionDoubt doubt{};  ///< of each
+    int last_place = -1;  ///< index of a rest where it was seen last; negative: none
+  };
+  /// A rest where a UAV was seen last.
+  struct LastPlace {
+    CommittedMotion motion;
+    PredictedMotion prediction;
   };
 
   Box reach(const KinematicState& start) const;
   void collectObstacles(const Box& reach, UavProblem& problem) const;
   void collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const;
+  /// Adds the body of `other` for `uav`, if it is in reach.
+  void addUav(std::size_t uav, std::uint32_t other, const PredictedMotion& motion, std::uint32_t identity,
+              const Box& reach, UavProblem& problem) const;
 
   const Parameters& parameters_;
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
@@ -69,6 +87,7 @@ class Surroundings {
   std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedObstacle> checked_obstacles_;
   std::vector<Motions> motions_;
+  std::vector<LastPlace> last_places_;
   std::vector<PredictedMotion> predictions_;  ///< of the newest motions
   std::vector<Box> areas_;                    ///< where each UAV may be, grown by half the pair distance [m]
   NeighbourLists neighbours_;

@@ -7,30 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
+#include "swarm_planner/swarm/flight_commands.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
+#include "swarm_planner/swarm/snapshot.hpp"
 
 namespace swarm_planner {
-
-/// Odometry of one UAV in the planning frame.
-struct UavMeasurement {
-  bool received = false;
-  double stamp = 0.0;           ///< [s]
-  Vector3 p = Vector3::Zero();  ///< [m]
-  Vector3 v = Vector3::Zero();  ///< [m/s]
-};
-
-/// All that one cycle looks at. Sized once; filled anew each cycle.
-struct Snapshot {
-  double now = 0.0;                  ///< [s]
-  std::vector<UavMeasurement> uavs;  ///< one per UAV, in the scenario's order
-  /// What trackers report; need not be every obstacle, nor differ from the cycle before. Obstacles that are missing are
-  /// remembered for track_timeout.
-  std::vector<TrackedObstacle> obstacles;
-};
 
 /// State of a UAV as PlannerStatus reports it (same numbers as the message's constants).
 enum class UavState : std::uint8_t {
@@ -58,9 +42,23 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kOdometryFrozen,     ///< the position stays the same although the UAV is to move, or says that it does
+  kOdometryJumps,      ///< no flight leads from one measurement to the next
+  kOdometryBackwards,  ///< stamps go back
+  kOffPlan,            ///< far from its motion for long: planned for anew from where it is
+  kForeign,            ///< another system flies the UAV
+  kNoLandingSite,      ///< none is free: it holds and looks again
+  kHeld,               ///< the mode's own, as are those that follow: nothing is amiss
+  kBrakesToLand,
+  kFliesToLandingSite,
+  kDescending,
+  kLanded,
+  kStopped,
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
+/// Whether it tells of a command that is carried out, not of trouble.
+bool isCommanded(Reason reason);
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
 /// The same, with why the check refused the solver's plan where that is what led there.
@@ -125,10 +123,23 @@ class SwarmPlanner {
 
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` of 1 to kMostPathPoints plausible
   /// points, start >= 0 finite, 0 <= speed <= kMostSpeed; throws std::invalid_argument with the reason otherwise. Call
-  /// it between cycles.
+  /// it between cycles. While the UAV does not fly its mission, the time zero waits until it does.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
 
-  /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.
+  /// What a UAV is to do from the next cycle on. Any command in any state; call it between cycles.
+  CommandAnswer command(std::size_t uav, FlightCommand command);
+  FlightMode mode(std::size_t uav) const;
+
+  /// Whether another system flies a UAV (at first: what the scenario says). Nobody plans for it then, it is not waited
+  /// for at the start, and the others avoid it from its odometry; what it was to fly here they keep clear of until
+  /// odometry shows it elsewhere. One that comes back is planned for from the next cycle on, from where it is measured.
+  /// Call it between cycles. Throws std::invalid_argument if there is no such UAV. The same as the commands to leave
+  /// and to join.
+  void setForeign(std::size_t uav, bool foreign);
+  bool isForeign(std::size_t uav) const;
+
+  /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later, and
+  /// so do the UAVs' modes.
   void reset();
 
  private:

@@ -1,0 +1,54 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <optional>
+
+#include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/swarm/motion_memory.hpp"
+#include "swarm_planner/swarm/swarm_planner.hpp"
+
+namespace swarm_planner {
+
+/// Judges one UAV's odometry: each measurement against the clock, against those before it and against the motion that
+/// the UAV is to fly. What is refused counts as odometry that has not come. With n = odometry_noise, 5 cm
+/// at least, and T = odometry_doubt_time:
+///
+///  - frozen: the position stays the same to the last bit while stamps go on, though the velocity in the same message,
+///    unchanged too, has carried the UAV by more than 2 n; or for more than T though its motion has moved by more than
+///    2 n. Whoever is to rest may rest, without noise for ever. Ends with the first new position.
+///  - jumps: no flight leads from the last measurement that was believed (p0, v0) to this one (p1, v1), dt later. One
+///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
+///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
+///    each axis does not reach 7 n. After a jump a measurement is believed that a flight from p0 leads to within T, or
+///    that lies within 2 n of the motion; and any, once measurements have fitted each other for T: an estimator that
+///    has found its place anew.
+///  - stamps go back: the same, told by its own reason.
+///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
+class OdometryMonitor {
+ public:
+  /// Why `measurement` cannot be planned from; kNone if it can. `motions`: what the UAV is to fly.
+  Reason judge(const UavMeasurement& measurement, double now, const MotionMemory& motions,
+               const Parameters& parameters);
+
+  /// Takes note of how far from its motion a measurement that can be planned from is [m], at its `stamp` [s]. True once
+  /// the UAV has been off its plan for long enough; counting begins anew then.
+  bool noteDeviation(double deviation, double stamp, const InputParameters& input);
+
+  /// The last measurement that could be planned from; empty if there has been none.
+  const std::optional<UavMeasurement>& trusted() const { return trusted_; }
+
+ private:
+  Reason compare(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);
+  bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
+
+  std::optional<UavMeasurement> trusted_;
+  std::optional<UavMeasurement> newest_;   ///< compared last
+  Reason verdict_ = Reason::kNone;         ///< on it
+  std::optional<UavMeasurement> held_;     ///< the first with the position that the newest has
+  std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
+  std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
+  double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
+  std::optional<double> off_plan_since_;   ///< [s]
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,225 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// A fault that is not noticed is planned from; one that is seen where there is none grounds a UAV. So each fault here
+// has a near miss that must pass.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/flight_problem.hpp"
+#include "support/random.hpp"
+#include "swarm_planner/simulation/gaussian_noise.hpp"
+#include "swarm_planner/swarm/odometry_monitor.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kCycle = 0.3;     // [s]
+constexpr double kBegin = 1000.0;  // [s]
+
+class Monitor : public ::testing::Test {
+ protected:
+  /// What is said of a measurement that arrives as soon as it is made.
+  Reason judge(double t, const Vector3& p, const Vector3& v) {
+    now_ = kBegin + t;
+    return monitor_.judge({true, now_, p, v}, now_, motions_, parameters_);
+  }
+  /// The UAV is to fly from `p` at `v` for a horizon, then to stop.
+  void commit(const Vector3& p, const Vector3& v) {
+    const Trajectory plan = straightPlan(p, v, kBegin, kCycle);
+    StopManoeuvre stop;
+    rollOutStop(plan.knots.back(), 10, kCycle, stop);
+    CommittedMotion motion;
+    motion.assign(plan, stop);
+    motions_.commit(motion);
+  }
+  void commitRest(const Vector3& p) {
+    CommittedMotion motion;
+    motion.assignRest(kBegin, p);
+    motions_.commit(motion);
+  }
+
+  Parameters parameters_;
+  MotionMemory motions_;
+  OdometryMonitor monitor_;
+  double now_ = kBegin;
+};
+
+const Vector3 kPlace(1, 2, 10);
+const Vector3 kFast(3, 0, 0);
+
+TEST_F(Monitor, SaysWhatCannotBeUsedAtAll) {
+  EXPECT_EQ(monitor_.judge({}, kBegin, motions_, parameters_), Reason::kWaitingForOdometry);
+  EXPECT_FALSE(monitor_.trusted());
+  const UavMeasurement good{true, kBegin, kPlace, kFast};
+  UavMeasurement bad = good;
+  bad.p.y() = std::nan("");
+  EXPECT_EQ(monitor_.judge(bad, kBegin, motions_, parameters_), Reason::kOdometryNotFinite);
+  bad = good;
+  bad.v.z() = 1e9;
+  EXPECT_EQ(monitor_.judge(bad, kBegin, motions_, parameters_), Reason::kOdometryNotFinite);
+  EXPECT_EQ(monitor_.judge(good, kBegin - 0.06, motions_, parameters_), Reason::kOdometryFromFuture);
+  EXPECT_EQ(monitor_.judge(good, kBegin - 0.04, motions_, parameters_), Reason::kNone);
+  EXPECT_EQ(monitor_.judge(good, kBegin + 0.49, motions_, parameters_), Reason::kNone);
+  EXPECT_EQ(monitor_.judge(good, kBegin + 0.51, motions_, parameters_), Reason::kOdometryStale);
+  ASSERT_TRUE(monitor_.trusted());
+  EXPECT_EQ(monitor_.trusted()->p, kPlace);
+}
+
+// ---- Frozen
+
+TEST_F(Monitor, NoticesAtOnceThatAFastUavsPositionIsFrozen) {
+  commit(kPlace, kFast);
+  EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+  EXPECT_EQ(judge(0.3, kPlace, kFast), Reason::kOdometryFrozen);
+  EXPECT_EQ(judge(5.0, kPlace, kFast), Reason::kOdometryFrozen);
+  EXPECT_EQ(monitor_.trusted()->stamp, kBegin) << "what came later repeats it";
+  EXPECT_EQ(judge(5.3, kPlace + Vector3(15, 0, 0), kFast), Reason::kNone) << "it does not come back";
+}
+
+TEST_F(Monitor, LetsPositionsPassThatDifferInTheLastBit) {
+  commit(kPlace, kFast);
+  double x = kPlace.x();
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(judge(kCycle * i, Vector3(x, 2, 10), kFast), Reason::kNone);
+    x = std::nextafter(x, 10.0);
+  }
+}
+
+// Frozen while it hovered: the velocity says nothing, the motion does. For a moment the UAV may only be late.
+TEST_F(Monitor, NoticesByTheMotionThatAHoveringUavsPositionIsFrozen) {
+  commit(kPlace, kFast);
+  for (const double t : {0.0, 0.3, 0.6, 0.9}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kNone) << t;
+  for (const double t : {1.2, 1.5, 30.0}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kOdometryFrozen) << t;
+}
+
+TEST_F(Monitor, NoticesAFrozenPositionBesideALiveVelocity) {
+  commit(kPlace, kFast);
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kNone);
+  EXPECT_EQ(judge(1.2, kPlace, kFast), Reason::kOdometryFrozen);
+}
+
+TEST_F(Monitor, LetsAUavRestWithoutNoiseForEver) {
+  commitRest(kPlace);
+  for (int i = 0; i < 1000; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
+}
+
+TEST_F(Monitor, LetsAUavRestThatHasNoMotionYet) {
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
+  commit(kPlace, Vector3(0.02, 0, 0));  // 12 cm in six seconds: no more than noise
+  for (int i = 100; i < 200; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
+}
+
+// ---- Jumps
+
+TEST_F(Monitor, NoticesAJumpAndItsEnd) {
+  EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+  EXPECT_EQ(judge(0.3, kPlace + Vector3(0.9, 5, 0), kFast), Reason::kOdometryJumps);
+  EXPECT_EQ(monitor_.trusted()->p, kPlace);
+  EXPECT_EQ(judge(0.6, kPlace + Vector3(1.8, 0, 0), kFast), Reason::kNone);
+}
+
+TEST_F(Monitor, BelievesAJumpThatLasts) {
+  const Vector3 elsewhere = kPlace + Vector3(0, 50, 0);
+  EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+  for (const double t : {0.3, 0.6, 0.9, 1.2}) EXPECT_EQ(judge(t, elsewhere + t * kFast, kFast), Reason::kOdometryJumps);
+  EXPECT_EQ(judge(1.5, elsewhere + 1.5 * kFast, kFast), Reason::kNone);
+  EXPECT_EQ(judge(1.8, elsewhere + 1.8 * kFast, kFast), Reason::kNone);
+}
+
+// However long ago the last believed measurement is by then.
+TEST_F(Monitor, NeverBelievesAPositionThatKeepsJumping) {
+  EXPECT_EQ(judge(0.0, kPlace, Vector3::Zero()), Reason::kNone);
+  Random random(1);
+  for (int i = 1; i < 1000; ++i) {
+    const double side = i % 2 == 0 ? 20.0 : -20.0;
+    ASSERT_EQ(judge(kCycle * i, kPlace + side * Vector3::UnitY() + random.vector(-1.0, 1.0), Vector3::Zero()),
+              Reason::kOdometryJumps)
+        << i;
+  }
+}
+
+// ... but one that is back on the motion, at once.
+TEST_F(Monitor, BelievesAtOnceWhatIsBackOnTheMotion) {
+  for (const bool has_motion : {false, true}) {
+    monitor_ = OdometryMonitor();
+    if (has_motion) commit(kPlace, kFast);
+    EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+    double side = 20.0;
+    for (int i = 1; i < 10; ++i) {
+      side = -side;
+      EXPECT_EQ(judge(kCycle * i, kPlace + Vector3(0, side, 0), kFast), Reason::kOdometryJumps) << i;
+    }
+    const Reason back = judge(3.0, kPlace + 3.0 * kFast + Vector3(0.1, -0.1, 0.1), kFast);
+    EXPECT_EQ(back, has_motion ? Reason::kNone : Reason::kOdometryJumps);
+  }
+}
+
+// Full thrust sideways from full speed to standstill and back is a flight; noise of the size that is planned for three
+// times over is noise.
+TEST_F(Monitor, LetsTheHardestFlightPass) {
+  Vector3 p = kPlace;
+  double v = 5.0;
+  ASSERT_EQ(judge(0.0, p, Vector3(v, 0, 0)), Reason::kNone);
+  for (int i = 1; i < 100; ++i) {
+    const double next = i % 2 == 0 ? 5.0 : 5.0 - 17.0 * kCycle;
+    p.x() += 0.5 * kCycle * (v + next);
+    v = next;
+    ASSERT_EQ(judge(kCycle * i, p, Vector3(v, 0, 0)), Reason::kNone) << i;
+  }
+}
+
+TEST_F(Monitor, LetsNoisePass) {
+  GaussianNoise noise(2);
+  const double sigma = parameters_.input.odometry_noise;
+  for (int i = 0; i < 20000; ++i) {
+    ASSERT_EQ(judge(kCycle * i, kPlace + noise.vector(sigma), noise.vector(sigma)), Reason::kNone) << i;
+  }
+}
+
+TEST_F(Monitor, LetsAGapPassInWhichTheUavFlewOn) {
+  EXPECT_EQ(judge(0.0, kPlace, 5.0 / 3.0 * kFast), Reason::kNone);
+  EXPECT_EQ(judge(4.0, kPlace + Vector3(20, 0, 0), 5.0 / 3.0 * kFast), Reason::kNone);
+}
+
+// ---- Stamps
+
+TEST_F(Monitor, NoticesStampsThatGoBackUntilTheyGoOn) {
+  const auto at = [&](double t, double stamp) {
+    return monitor_.judge({true, kBegin + stamp, kPlace + stamp * kFast, kFast}, kBegin + t, motions_, parameters_);
+  };
+  EXPECT_EQ(at(0.0, 0.0), Reason::kNone);
+  EXPECT_EQ(at(0.3, 0.3), Reason::kNone);
+  EXPECT_EQ(at(0.6, 0.15), Reason::kOdometryBackwards);
+  EXPECT_EQ(at(0.61, 0.15), Reason::kOdometryBackwards) << "the same message again";
+  EXPECT_EQ(at(0.9, 0.9), Reason::kNone);
+}
+
+TEST_F(Monitor, CallsStampsThatStandStillTooOld) {
+  EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+  const UavMeasurement still{true, kBegin, kPlace + kFast, kFast};
+  EXPECT_EQ(monitor_.judge(still, kBegin + 0.4, motions_, parameters_), Reason::kNone);
+  EXPECT_EQ(monitor_.judge(still, kBegin + 0.6, motions_, parameters_), Reason::kOdometryStale);
+}
+
+// ---- Off plan
+
+TEST_F(Monitor, TellsADeviationThatLastsAndCountsAnew) {
+  parameters_.input.off_plan_distance = 1.5;
+  const auto note = [&](double t, double deviation) {
+    return monitor_.noteDeviation(deviation, kBegin + t, parameters_.input);
+  };
+  for (const double t : {0.0, 0.3, 0.6, 0.9}) EXPECT_FALSE(note(t, 1.6)) << t;
+  EXPECT_TRUE(note(1.2, 1.6));
+  EXPECT_FALSE(note(1.5, 1.6));
+  EXPECT_FALSE(note(1.8, 0.0));
+  // A gust that ends, and one that is not strong enough.
+  for (const double t : {2.0, 2.9}) EXPECT_FALSE(note(t, 3.0)) << t;
+  EXPECT_FALSE(note(2.95, 1.0));
+  EXPECT_FALSE(note(3.1, 3.0));
+  for (double t = 4.0; t < 20.0; t += kCycle) EXPECT_FALSE(note(t, 1.4)) << t;
+}
+
+}  // namespace
+}  // namespace swarm_planner
