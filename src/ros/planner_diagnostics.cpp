@@ -141,6 +141,10 @@ void PlannerDiagnostics::describeUav(std::size_t uav, Status& status) {
   } else {
     status.summary(DiagnosticStatus::WARN, "not planned for yet");
   }
+  // Messages that overtake each other are usual on slow links.
+  const auto faulty = [](const FaultCounts& dropped) { return dropped.total() - dropped.of(InputFault::kOutOfOrder); };
+  const std::uint64_t dropped = faulty(input.dropped) - faulty(last_uavs_[uav].dropped);
+  if (dropped > 0) status.mergeSummary(DiagnosticStatus::WARN, std::to_string(dropped) + " odometry messages dropped");
   status.addf("odometry rate [Hz]", "%.1f", rate(input.accepted, last_uavs_[uav].accepted));
   if (input.received) status.addf("odometry age [s]", "%.2f", now_ - input.sample.stamp);
   addDropped("odometry dropped", input.dropped, status);

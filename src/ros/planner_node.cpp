@@ -32,6 +32,17 @@ std::vector<std::string> namesOf(const SwarmPlanner& planner) {
   return names;
 }
 
+// A line for each UAV that has a reason, with an alarm or without; of a large swarm the first.
+std::string reasonsOf(const PlannerStatus& status, bool alarm) {
+  std::string text;
+  std::size_t uavs = 0;
+  for (const UavStatus& uav : status.uavs) {
+    if (uav.reason.empty() || concernOf(uav) == Concern::kNone || static_cast<bool>(uav.alarm) != alarm) continue;
+    if (++uavs <= kMostNames) text += "\n  " + uav.name + ": " + uav.reason;
+  }
+  return uavs > kMostNames ? text + "\n  and " + std::to_string(uavs - kMostNames) + " more" : text;
+}
+
 InputParameters inputLimits(const Mission& mission) {
   InputParameters limits = mission.parameters.input;
   limits.max_tracks = static_cast<int>(maxTracks(mission));
@@ -129,12 +140,8 @@ void PlannerNode::publishCycle(double now, bool deadline_missed) {
 }
 
 void PlannerNode::tellOperator() const {
-  std::string alarms;
-  std::string warnings;
-  for (const UavStatus& uav : status_.uavs) {
-    if (uav.reason.empty() || concernOf(uav) == Concern::kNone) continue;
-    (uav.alarm ? alarms : warnings) += "\n  " + uav.name + ": " + uav.reason;
-  }
+  const std::string alarms = reasonsOf(status_, true);
+  const std::string warnings = reasonsOf(status_, false);
   if (!alarms.empty()) ROS_ERROR_STREAM_THROTTLE(kWarningPeriod, "ALARM, safety is not assured:" << alarms);
   if (!warnings.empty()) ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Not every UAV is tracking:" << warnings);
 }

@@ -25,6 +25,8 @@ constexpr double kStep = 0.01;
 constexpr std::uint64_t kExternalSteps = 20;
 // A longer gap is a jump of time, not a delay to make up for [s].
 constexpr double kJump = 1.0;
+// A status that begins a new run each time fills no console [s].
+constexpr double kNewsPeriod = 1.0;
 // A run begins about a cycle ahead [s].
 constexpr double kMostAhead = 60.0;
 // No planner takes longer for a cycle [s].
@@ -162,7 +164,7 @@ void QuadSimNode::receiveStatus(const PlannerStatus& status) {
     cycle_time_sum_ = 0.0;
     cycle_time_max_ = 0.0;
     clear_ = false;
-    ROS_INFO_THROTTLE(kJump, "Run of '%s' starts at %.2f s", mission_.scenario.name.c_str(), time_zero);
+    ROS_INFO_THROTTLE(kNewsPeriod, "Run of '%s' starts at %.2f s", mission_.scenario.name.c_str(), time_zero);
   }
   ++cycles_;
   cycle_time_sum_ += cycle_time;

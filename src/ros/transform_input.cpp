@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/ros/transform_input.hpp"
 
+#include <ros/console.h>
 #include <ros/time.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@ constexpr std::size_t kMostFrames = 20000;
 constexpr double kMostAhead = 2.0;
 // Beyond 0.01 tf2 itself refuses the square of a quaternion's norm, and complains.
 constexpr double kMostNormError = 0.009;
+constexpr double kWarningPeriod = 5.0;  // [s]
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 bool isName(const std::string& frame) { return !frame.empty() && frame.size() <= kLongestName; }
@@ -91,6 +93,7 @@ void TransformInput::refuse(InputFault fault, const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
   report_.dropped.add(fault);
   report_.last_fault = why;
+  ROS_WARN_STREAM_THROTTLE(kWarningPeriod, "Dropped: " << why);
 }
 
 TransformInputReport TransformInput::report() const {

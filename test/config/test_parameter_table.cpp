@@ -48,6 +48,7 @@ const Place kPlaces[] = {
     {"robustness_outer", 1.58, [](const Parameters& p) -> ParameterValue { return p.cost.robustness_outer; }},
     {"epsilon_s", 0.059, [](const Parameters& p) -> ParameterValue { return p.cost.epsilon_s; }},
     {"max_iterations", 7, [](const Parameters& p) -> ParameterValue { return p.sqp.max_iterations; }},
+    {"max_tracks", 77, [](const Parameters& p) -> ParameterValue { return p.input.max_tracks; }},
     {"step_tolerance", 0.06, [](const Parameters& p) -> ParameterValue { return p.sqp.step_tolerance; }},
     {"slack_linear", 61.0, [](const Parameters& p) -> ParameterValue { return p.sqp.slack_linear; }},
     {"slack_quadratic", 62.0, [](const Parameters& p) -> ParameterValue { return p.sqp.slack_quadratic; }},

@@ -34,6 +34,11 @@ extern "C" void tellInput(int signal) {
   std::raise(signal);
 }
 
+/// An exception ends the program here, where the handler tells which input it was.
+void feed(const std::string& input) noexcept {
+  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+}
+
 class Mutator {
  public:
   explicit Mutator(std::vector<std::string> seeds) : seeds_(std::move(seeds)) {}
@@ -126,7 +131,7 @@ TEST(Fuzz, NoInputBreaksAPromise) {
     const std::string input = mutator.input(seed, first + done);
     std::snprintf(report, sizeof(report), "fuzzing failed; repeat with FUZZ_SEED=%llu FUZZ_FIRST=%llu FUZZ_COUNT=1\n",
                   static_cast<unsigned long long>(seed), static_cast<unsigned long long>(first + done));
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+    feed(input);
   }
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
   std::printf("%llu inputs in %.1f s\n", static_cast<unsigned long long>(done), time.count());

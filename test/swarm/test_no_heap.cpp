@@ -236,6 +236,30 @@ TEST_F(NoHeap, RememberingTracksAllocatesNothing) {
   EXPECT_GT(most, 80U);
 }
 
+// Twice as many as there is room for, with ids that never come again.
+TEST_F(NoHeap, ForgettingTheFarthestTracksAllocatesNothing) {
+  constexpr std::size_t kCapacity = 50;
+  const std::vector<Vector3> places{Vector3::Zero(), Vector3(5.0, 0.0, 0.0)};
+  TrackMemory memory(1.0, kCapacity, places.size());
+  Random random(3);
+  std::size_t gone = 0;
+  for (int n = 0; n < 100; ++n) {
+    std::vector<TrackedObstacle> tracks(kCapacity);
+    for (std::size_t i = 0; i < kCapacity; ++i) {
+      tracks[i].shape = Superellipsoid(1000 * n + static_cast<int>(i), random.vector(-9.0, 9.0), Vector3::Ones(),
+                                       Vector3::Constant(2.0), 0.0, Vector3::Zero());
+      tracks[i].stamp = 0.1 * n;
+    }
+    EXPECT_EQ(heapCalls([&] {
+                memory.update(tracks, 0.1 * n);
+                gone += memory.keepNearest(places);
+              }),
+              0);
+    EXPECT_LE(memory.tracks().size(), kCapacity);
+  }
+  EXPECT_GT(gone, 1000U);
+}
+
 TEST_F(NoHeap, CheckingPlansAllocatesNothing) {
   Random random(1);
   int accepted = 0;
