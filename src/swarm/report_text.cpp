@@ -38,6 +38,8 @@ const char* reasonText(Reason reason) {
       return "no time left to plan; the last plan goes on";
     case Reason::kStraying:
       return "strays from its plan by more than tracking_margin";
+    case Reason::kTakingOver:
+      return "in flight when the planner started; its last trajectory goes on until all inputs are known";
   }
   return "unknown reason";
 }

@@ -12,6 +12,7 @@
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
+#include "swarm_planner/swarm/takeover.hpp"
 #include "swarm_planner/swarm/thread_team.hpp"
 #include "swarm_planner/swarm/uav_planner.hpp"
 
@@ -25,6 +26,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 std::size_t maxObstacles(const Mission& mission) {
   constexpr std::size_t kTracks = 256;
   return std::max(kTracks, mission.scenario.obstacles.size());
+}
+
+std::vector<Vector3> homesOf(const Scenario& scenario) {
+  std::vector<Vector3> homes;
+  for (const ScenarioUav& uav : scenario.uavs) homes.push_back(uav.start);
+  return homes;
 }
 
 /// False for NaN too.
@@ -50,11 +57,13 @@ class SwarmPlanner::Impl {
         uavs(mission.scenario.uavs.size()),
         tracks(parameters.input.track_timeout, maxObstacles(mission)),
         surroundings(parameters, uavs.size(), maxObstacles(mission)),
+        takeover(homesOf(mission.scenario)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const ScenarioUav& uav = mission.scenario.uavs[i];
       uavs[i].name = uav.name;
+      uavs[i].beginning.home = uav.start;
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
@@ -68,8 +77,18 @@ class SwarmPlanner::Impl {
 
   void reset() {
     report.started = false;
+    planning = false;
+    takeover.reset();
     tracks.reset();
     for (UavRecord& uav : uavs) uav.reset();
+  }
+
+  void takeOver(const FlightMemory& memory) {
+    report.started = true;
+    report.time_zero = memory.time_zero;
+    takeover.reset(memory.obstacles);
+    const std::size_t count = std::min(uavs.size(), memory.uavs.size());
+    for (std::size_t i = 0; i < count; ++i) swarm_planner::takeOver(memory.uavs[i], uavs[i]);
   }
 
   void plan(const Snapshot& snapshot, double epoch, double budget) {
@@ -80,11 +99,8 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
-    if (!report.started && mayStart(snapshot)) {
-      report.started = true;
-      report.time_zero = epoch;
-    }
-    if (report.started) planAll(snapshot, epoch, stopwatch, budget);
+    if (!planning) start(snapshot, epoch);
+    if (planning) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
 
@@ -109,10 +125,26 @@ class SwarmPlanner::Impl {
     }
   }
 
-  bool mayStart(const Snapshot& snapshot) const {
-    const bool all_arrived = snapshot.uavs.size() == uavs.size() &&
-                             std::all_of(judged.begin(), judged.end(), [](Reason r) { return r == Reason::kNone; });
-    return parameters.input.autostart && all_arrived;
+  /// Begins to plan if it is time to: on the ground when all odometry has arrived, in flight when the takeover is
+  /// ready.
+  void start(const Snapshot& snapshot, double epoch) {
+    takeover.observe(snapshot, judged);
+    const bool in_flight = report.started || takeover.findsFlight();
+    planning = in_flight ? takeover.isReady(tracks.tracks().size()) : allArrived(snapshot);
+    planning = planning && (report.started || parameters.input.autostart);
+    if (planning && !report.started) report.time_zero = epoch;
+    report.started = report.started || planning;
+    if (planning || !in_flight) return;
+    for (UavReport& uav : report.uavs) {
+      if (uav.reason != Reason::kNone && uav.reason != Reason::kWaitingForOthers) continue;
+      uav.state = UavState::kFallback;
+      uav.reason = Reason::kTakingOver;
+    }
+  }
+
+  bool allArrived(const Snapshot& snapshot) const {
+    return snapshot.uavs.size() == uavs.size() &&
+           std::all_of(judged.begin(), judged.end(), [](Reason r) { return r == Reason::kNone; });
   }
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
@@ -143,7 +175,13 @@ class SwarmPlanner::Impl {
     if (uav.reference_pending) uav.reference.time_zero = epoch;
     uav.reference_pending = false;
     const bool measured = judged[i] == Reason::kNone;
-    if (measured) uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    if (measured && uav.beginning.pending) {
+      const ObservedFlight& flight = takeover.flight(i);
+      const bool observed = takeover.findsFlight() && flight.count() > 0;
+      begin(snapshot.uavs[i], epoch, parameters, observed ? &flight : nullptr, uav);
+    } else if (measured) {
+      uav.predictStart(snapshot.uavs[i], epoch, parameters);
+    }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
@@ -173,6 +211,8 @@ class SwarmPlanner::Impl {
 
   TrackMemory tracks;
   Surroundings surroundings;
+  Takeover takeover;
+  bool planning = false;  ///< the first plans have been made
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
@@ -213,6 +253,10 @@ void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& pat
   if (!(speed >= 0.0) || !std::isfinite(speed)) throw std::invalid_argument("speed must be finite and >= 0");
   impl_->uavs[uav].setReference(path, start, speed);
 }
+
+double SwarmPlanner::progress(std::size_t uav) const { return impl_->uavs[uav].progress; }
+
+void SwarmPlanner::takeOver(const FlightMemory& memory) { impl_->takeOver(memory); }
 
 void SwarmPlanner::reset() { impl_->reset(); }
 

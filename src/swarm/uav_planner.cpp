@@ -56,6 +56,8 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   reference.path = ReferencePath(path);
   reference.start = arc_length;
   reference.speed = speed;
+  given_start = arc_length;
+  beginning.on_reference = false;
   reference_pending = true;
   on_reference = false;
 }
@@ -64,6 +66,8 @@ void UavRecord::reset() {
   motions.clear();
   planned = false;
   deviation.setZero();
+  beginning.reset();
+  reference.start = given_start;
   reference_pending = true;
   on_reference = false;
   active.count = 0;

@@ -21,8 +21,8 @@ class PlannerDiagnostics {
 
   /// Notes a cycle.
   void addCycle(const PlannerStatus& status);
-  /// Publishes the state since the last call; `now` [s] is ROS time.
-  void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now);
+  /// Publishes the state since the last call; `now` [s] is ROS time, `clock` what is amiss with it.
+  void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, double now, const std::string& clock);
   /// Time has jumped back: rates start anew.
   void restart();
 
@@ -40,6 +40,7 @@ class PlannerDiagnostics {
   std::vector<UavInput> uavs_, last_uavs_;
   TrackInput tracks_, last_tracks_;
   double now_ = 0.0, last_time_ = 0.0;  ///< [s]
+  std::string clock_;                   ///< what is amiss with ROS time
   StatusTally tally_;                   ///< since the last publication
 };
 

@@ -30,6 +30,9 @@ class CommittedMotion {
   /// Brakes at once.
   void assignStop(double epoch, const StopManoeuvre& stop);
   void assignRest(double epoch, const Vector3& position);
+  /// `pieces` (at most kMaxPieces) of length `dt` with the control points `points`, 3 pieces + 1: as piece() gives
+  /// them.
+  void assignPoints(double epoch, double dt, int pieces, const Vector3* points);
   /// Forgets the first `count` pieces (at most all): what is left begins at a later epoch.
   void dropPieces(int count);
 

@@ -31,12 +31,22 @@ class MotionMemory {
   /// newest one by more than `difference` [m].
   void compare(double stamp, const Vector3& p, double difference);
 
+  /// Starts anew: the UAV flew `past` until motion.epoch(), and is to fly `motion` from then on.
+  void begin(const CommittedMotion& past, const CommittedMotion& motion);
+  /// As another planner left it: commit(older), if there is one, then commit(newest).
+  void restore(const CommittedMotion& newest, const CommittedMotion* older);
+  /// Of two motions that may be flown since long ago forgets the one that position `p` [m] at `stamp` [s] is farther
+  /// from, even if hardly.
+  void keepNearest(double stamp, const Vector3& p);
+
   /// From motion.epoch() on the UAV is to fly `motion`.
   void commit(const CommittedMotion& motion);
   /// The UAV goes on with what it flies. Pieces that have ended by `epoch` [s] are forgotten; a rest begins anew there.
   void goOn(double epoch);
 
  private:
+  void forgetLost();
+
   std::array<CommittedMotion, 2> motions_;
   std::size_t newest_ = 0;
   int count_ = 0;

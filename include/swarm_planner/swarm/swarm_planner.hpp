@@ -10,6 +10,7 @@
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
+#include "swarm_planner/swarm/flight_memory.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 
@@ -58,6 +59,7 @@ enum class Reason : std::uint8_t {
   kNoSafePlan,         ///< the least violating motion flies
   kOverrun,            ///< no time was left to plan; the committed motion goes on
   kStraying,           ///< the UAV is farther from its motion than tracking_margin
+  kTakingOver,         ///< in flight at the planner's start: what it flies goes on until inputs are known
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -126,6 +128,12 @@ class SwarmPlanner {
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` at least one finite point,
   /// start >= 0, speed >= 0 finite; throws std::invalid_argument with the reason otherwise. Call it between cycles.
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed);
+
+  /// Arc length of the foot of the newest start on the UAV's reference [m].
+  double progress(std::size_t uav) const;
+
+  /// Goes on with the run of a planner that is gone, instead of starting one. Before the first cycle.
+  void takeOver(const FlightMemory& memory);
 
   /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later.
   void reset();

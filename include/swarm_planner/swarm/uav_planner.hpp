@@ -12,6 +12,7 @@
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
+#include "swarm_planner/swarm/takeover.hpp"
 
 namespace swarm_planner {
 
@@ -19,11 +20,13 @@ namespace swarm_planner {
 struct UavRecord {
   std::string name;
   MovingTarget reference;
+  double given_start = 0.0;       ///< of the reference, as set [m]
   bool reference_pending = true;  ///< its time zero is the next epoch
   bool on_reference = false;      ///< progress holds
   double progress = 0.0;          ///< arc length of the foot of the last start [m]
   MotionMemory motions;           ///< a rest where it was measured before its first plan
   bool planned = false;           ///< the newest motion comes from a plan
+  Beginning beginning;            ///< how it comes to be planned for
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
