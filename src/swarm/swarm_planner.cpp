@@ -134,11 +134,14 @@ class SwarmPlanner::Impl {
     planning = planning && (report.started || parameters.input.autostart);
     if (planning && !report.started) report.time_zero = epoch;
     report.started = report.started || planning;
-    if (planning || !in_flight) return;
-    for (UavReport& uav : report.uavs) {
-      if (uav.reason != Reason::kNone && uav.reason != Reason::kWaitingForOthers) continue;
-      uav.state = UavState::kFallback;
-      uav.reason = Reason::kTakingOver;
+    if (!in_flight || !(report.started || parameters.input.autostart)) return;
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (judged[i] != Reason::kNone) {
+        report.uavs[i].state = UavState::kLost;
+      } else if (!planning) {
+        report.uavs[i].state = UavState::kFallback;
+        report.uavs[i].reason = Reason::kTakingOver;
+      }
     }
   }
 
