@@ -7,32 +7,19 @@ Private parameters: summary_file; restarts: how often the planner is killed and 
 does not come again, the negative control: then UAVs end their last trajectories, and stay there."""
 
 import math
-import os
 import random
-import signal
 import unittest
-import xmlrpc.client
 
-import rosgraph
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
-from swarm_harness import Planner, Recorder, wait_for, wait_for_summary
+from swarm_harness import Planner, Recorder, kill_node, node_api, wait_for, wait_for_summary
 from swarm_planner.msg import UavStatus
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 
 UAVS = ['uav%d' % (i + 1) for i in range(4)]
 TRACKING_ERROR = 0.03  # [m], as the rule sets it for pair_distance 2 and uav_radius 0.3
 RECOVERY = 5.0         # until every UAV has new plans [s]
-
-
-def api(node):
-    """The XML-RPC interface of a node; raises if there is none."""
-    return xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode(node))
-
-
-def kill(node):
-    os.kill(api(node).getPid('/test')[2], signal.SIGKILL)
 
 
 def vector(message):
@@ -47,7 +34,6 @@ class PlannerKilledTest(unittest.TestCase):
         cls.planner = Planner()
         cls.odometry = {name: Recorder(name + '/odometry', Odometry) for name in UAVS}
         cls.trajectories = {name: Recorder(name + '/command/trajectory', MultiDOFJointTrajectory) for name in UAVS}
-        cls.planner_name = rospy.resolve_name('planner_node')
 
     def speed(self, name):
         return math.hypot(*vector(self.odometry[name].last().twist.twist.linear))
@@ -73,7 +59,7 @@ class PlannerKilledTest(unittest.TestCase):
         largest jump of a setpoint."""
         speed = sum(self.speed(name) for name in UAVS) / len(UAVS)
         progress = {uav.name: uav.target.x for uav in self.planner.status.last().uavs}
-        kill(self.planner_name)
+        kill_node('planner_node')
         rospy.sleep(0.4)  # for messages that were under way
         for recorder in self.trajectories.values():
             recorder.clear()
@@ -94,7 +80,7 @@ class PlannerKilledTest(unittest.TestCase):
             self.check_restarts(restarts)
         else:
             self.check_rest()
-        api(rospy.resolve_name('quad_sim_node')).shutdown('/test', 'the run is over')
+        node_api('quad_sim_node').shutdown('/test', 'the run is over')
         summary = wait_for_summary(rospy.get_param('~summary_file'))
         self.assertEqual(summary['collisions'], 0, summary)
         self.assertGreater(summary['mission_time_s'], 1.5 * restarts + 10.0, 'the run was not measured as one')
@@ -110,7 +96,7 @@ class PlannerKilledTest(unittest.TestCase):
             self.assertLess(jump, TRACKING_ERROR)
 
     def check_rest(self):
-        kill(self.planner_name)
+        kill_node('planner_node')
         wait_for(lambda: all(self.speed(name) < 0.02 for name in UAVS), 'UAVs at rest')
         places = {name: vector(self.odometry[name].last().pose.pose.position) for name in UAVS}
         rospy.sleep(10.0)
