@@ -4,6 +4,7 @@
 
 root_dir="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)"
 build_dir="$root_dir/.build"
+configure_options=(-DCMAKE_BUILD_TYPE=Release -DSWARM_PLANNER_WERROR=ON)
 
 # The system's python3 must come first: ROS's modules are installed for that one alone.
 export PATH="/usr/bin:$PATH"
@@ -122,7 +123,7 @@ build() {
     # catkin gives tests an environment that it records while configuring, with those folders only that exist by then:
     # without the one of the Python messages the tests with nodes could not import them.
     mkdir -p "$build_dir/devel/lib/python3/dist-packages"
-    cmake -S "$root_dir" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSWARM_PLANNER_WERROR=ON \
+    cmake -S "$root_dir" -B "$build_dir" -G Ninja "${configure_options[@]}" \
       >"$build_dir/configure.log" 2>&1 || {
       cat "$build_dir/configure.log" >&2
       rm -f "$build_dir/CMakeCache.txt"

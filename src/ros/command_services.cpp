@@ -5,6 +5,7 @@
 
 #include <boost/function.hpp>
 #include <set>
+#include <utility>
 
 #include "swarm_planner/ros/node_constants.hpp"
 
@@ -81,8 +82,9 @@ void summarise(const std::string& command, const std::vector<std::string>& names
   }
 }
 
-CommandServices::CommandServices(const std::vector<std::string>& uav_names, SwarmPlanner& planner)
-    : names_(uav_names), planner_(planner) {
+CommandServices::CommandServices(const std::vector<std::string>& uav_names, SwarmPlanner& planner,
+                                 std::function<void()> commanded)
+    : names_(uav_names), planner_(planner), commanded_(std::move(commanded)) {
   for (std::size_t uav = 0; uav < names_.size(); ++uav) index_[names_[uav]] = uav;
   ros::NodeHandle node("~");
   advertiseForAll(node, kStartService, Command::Request::START);
@@ -99,6 +101,7 @@ void CommandServices::advertiseForAll(ros::NodeHandle& node, const char* name, s
         request.action = action;
         Command::Response answers;
         carryOut(request, index_, planner_, answers);
+        commanded_();
         summarise(name, names_, answers, response);
         ROS_INFO_STREAM(response.message);
         return true;
@@ -108,6 +111,7 @@ void CommandServices::advertiseForAll(ros::NodeHandle& node, const char* name, s
 
 bool CommandServices::command(Command::Request& request, Command::Response& response) {
   carryOut(request, index_, planner_, response);
+  commanded_();
   constexpr std::size_t kMostLines = 20;
   for (std::size_t i = 0; i < response.reasons.size() && i < kMostLines; ++i) {
     const std::string name = request.uavs.empty() ? names_[i] : shortened(request.uavs[i]);

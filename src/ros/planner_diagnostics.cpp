@@ -49,11 +49,12 @@ void PlannerDiagnostics::addCycle(const PlannerStatus& status) {
 }
 
 void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackInput& tracks,
-                                 const TransformInputReport& transforms, double now) {
+                                 const TransformInputReport& transforms, double now, const std::string& clock) {
   uavs_ = uavs;
   tracks_ = tracks;
   transforms_ = transforms;
   now_ = now;
+  clock_ = clock;
   updater_.force_update();
   last_uavs_ = uavs_;
   last_tracks_ = tracks_;
@@ -71,7 +72,9 @@ double PlannerDiagnostics::rate(std::uint64_t count, std::uint64_t last_count) c
 
 void PlannerDiagnostics::describeCycle(Status& status) {
   status.summary(DiagnosticStatus::OK, planner_status_.started ? "planning" : "waiting");
-  if (tally_.cycles() == 0) status.summary(DiagnosticStatus::ERROR, "no planning cycle since the last report");
+  if (tally_.cycles() == 0) {
+    status.summary(DiagnosticStatus::ERROR, clock_.empty() ? "no planning cycle since the last report" : clock_);
+  }
   if (tally_.deadlineMisses() > 0) {
     status.mergeSummaryf(DiagnosticStatus::WARN, "%zu of %zu cycles missed their deadline", tally_.deadlineMisses(),
                          tally_.cycles());

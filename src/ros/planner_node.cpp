@@ -69,22 +69,21 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
       markers_(mission, frame_, options, inputs_),
+      track_timeout_(mission.parameters.input.track_timeout),
       budget_(options.planning_share),
-      commands_(names_, planner_) {
+      commands_(names_, planner_, [this] { keepModes(); }) {
   if (options.setpoint_horizon < 2.0 * cycle_period_) {
     ROS_WARN("setpoint_horizon is %.2f s: vehicles run out of setpoints when one cycle of %.2f s is lost",
              options.setpoint_horizon, cycle_period_);
   }
+  openRecord(options.flight_record, mission);
   advertiseServices();
   ros::NodeHandle node;
   cycle_timer_ = node.createTimer(ros::Duration(cycle_period_), &PlannerNode::runCycle, this);
   repeat_timer_ = node.createTimer(ros::Duration(cycle_period_ / (1 + setpoint_repeats_)),
                                    &PlannerNode::repeatSetpoints, this, false, false);
-  diagnostics_timer_ =
-      node.createWallTimer(ros::WallDuration(options.diagnostic_period), [this](const ros::WallTimerEvent&) {
-        diagnostics_.publish(inputs_.store().uavs(), inputs_.store().tracks(), inputs_.transforms(),
-                             toSeconds(ros::Time::now()));
-      });
+  diagnostics_timer_ = node.createWallTimer(ros::WallDuration(options.diagnostic_period),
+                                            [this](const ros::WallTimerEvent&) { reportHealth(); });
   ROS_INFO("Planning for %zu UAVs of '%s' in frame '%s' every %.2f s", names_.size(), mission.scenario.name.c_str(),
            frame_.c_str(), cycle_period_);
 }
@@ -93,6 +92,8 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   const double now = toSeconds(ros::Time::now());
   if (now < last_now_) resetAfterTimeJump(now);
   last_now_ = now;
+  if (!has_cycled_) takeOver(now);
+  has_cycled_ = true;
   const double epoch = epochFor(toSeconds(event.current_expected), now, cycle_period_);
   // After a late cycle the timer catches up; what it asks for has been planned.
   if (epoch < last_epoch_ + 0.5 * cycle_period_) return;
@@ -120,6 +121,8 @@ void PlannerNode::repeatSetpoints(const ros::TimerEvent&) {
 
 void PlannerNode::publishCycle(double now, bool deadline_missed) {
   const std::vector<UavInput> uavs = inputs_.store().uavs();
+  keepModes();
+  if (record_) record_->write(planner_, inputs_.store().tracks().known, now, ros::WallTime::now().toSec());
   outputs_.publishPlans(planner_, uavs, now);
 
   deadline_misses_ += deadline_missed ? 1 : 0;
@@ -150,6 +153,7 @@ void PlannerNode::resetAfterTimeJump(double now) {
   ROS_WARN("ROS time jumped back by %.2f s: plans and inputs are forgotten, the run starts anew", last_now_ - now);
   last_epoch_ = 0.0;
   planner_.reset();
+  if (record_) record_->forgetMotions();
   inputs_.store().clear();
   outputs_.clear();
   diagnostics_.restart();
@@ -169,13 +173,17 @@ void PlannerNode::advertiseServices() {
 bool PlannerNode::setReference(SetReference::Request& request, SetReference::Response& response) {
   try {
     const std::size_t uav = uavIndex(request.uav);
-    planner_.setReference(uav, pathInPlanningFrame(request), request.start, request.speed);
+    const UavOrders::Reference reference{pathInPlanningFrame(request), request.start, request.speed};
+    planner_.setReference(uav, reference.path, reference.start, reference.speed);
     diagnostics_.addReference(true);
     response.success = true;
     response.message = request.uav + " follows the new reference from the next epoch on";
     const FlightMode mode = planner_.mode(uav);
     if (mode != FlightMode::kFlying) {
       response.message = request.uav + " is " + modeText(mode) + ": it follows the new reference once it flies";
+    }
+    if (record_ && !record_->setReference(uav, reference)) {
+      response.message += "; it could not be written to the flight's record: a planner restarted will not know of it";
     }
     ROS_INFO_STREAM_THROTTLE(kServicePeriod, response.message);
   } catch (const std::invalid_argument& error) {

@@ -45,6 +45,7 @@ const std::vector<NodeParameter>& plannerNodeTable() {
       {"uav_marker_size", "drawn width of a UAV [m], 0: by the scene's size", 0.0, false, 0.0, 1000.0},
       {"trail_duration", "flown path to draw [s]", 60.0, false, 0.0, 3600.0},
       {"diagnostic_period", "time between diagnostics [s]", 1.0, false, 0.1, 60.0},
+      {"flight_record", "path of the flight's record: auto, a path, or empty for none", std::string("auto")},
   };
   return table;
 }
@@ -67,6 +68,7 @@ PlannerNodeOptions takePlannerNodeOptions(ParameterMap& given, Faults& faults) {
   options.uav_marker_size = number("uav_marker_size");
   options.trail_duration = number("trail_duration");
   options.diagnostic_period = number("diagnostic_period");
+  options.flight_record = text("flight_record");
   requirePlaceholder("odometry_topic", options.odometry_topic, faults);
   requirePlaceholder("trajectory_topic", options.trajectory_topic, faults);
   return options;

@@ -46,6 +46,14 @@ int CommittedMotion::endedPieces(double t) const {
   return elapsed >= duration() ? pieces_ : std::max(static_cast<int>((elapsed + kTimeTolerance) / dt_), 0);
 }
 
+void CommittedMotion::assignPoints(double epoch, double dt, int pieces, const Vector3* points) {
+  epoch_ = epoch;
+  dt_ = dt;
+  pieces_ = pieces;
+  std::copy(points, points + 3 * static_cast<std::size_t>(pieces) + 1, points_.begin());
+  finish();
+}
+
 void CommittedMotion::dropPieces(int count) {
   const int dropped = std::min(std::max(count, 0), pieces_);
   std::copy(&points_[3 * static_cast<std::size_t>(dropped)], &points_[3 * static_cast<std::size_t>(pieces_)] + 1,

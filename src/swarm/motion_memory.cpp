@@ -25,6 +25,23 @@ void MotionMemory::compare(double stamp, const Vector3& p, double difference) {
   on_older_ = from_older + difference < from_newest;
 }
 
+void MotionMemory::begin(const CommittedMotion& past, const CommittedMotion& motion) {
+  clear();
+  path_.append(past, motion.epoch());
+  commit(motion);
+}
+
+void MotionMemory::restore(const CommittedMotion& newest, const CommittedMotion* older) {
+  clear();
+  if (older != nullptr) commit(*older);
+  commit(newest);
+}
+
+void MotionMemory::keepNearest(double stamp, const Vector3& p) {
+  compare(stamp, p, 0.0);
+  forgetLost();
+}
+
 void MotionMemory::commit(const CommittedMotion& motion) {
   if (count_ > 0) path_.append(flown(), motion.epoch());
   push(motion);
@@ -42,12 +59,15 @@ void MotionMemory::push(const CommittedMotion& motion) {
   on_older_ = false;
 }
 
+void MotionMemory::forgetLost() {
+  if (!on_older_) return;
+  newest_ = 1 - newest_;
+  count_ = 1;
+  on_older_ = false;
+}
+
 void MotionMemory::goOn(double epoch) {
-  if (on_older_) {
-    newest_ = 1 - newest_;
-    count_ = 1;
-    on_older_ = false;
-  }
+  forgetLost();
   CommittedMotion& motion = motions_[newest_];
   if (epoch >= motion.epoch() + motion.duration()) {
     path_.append(motion, epoch);

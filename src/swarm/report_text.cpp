@@ -77,6 +77,8 @@ const char* reasonText(Reason reason) {
       return "landed";
     case Reason::kStopped:
       return "stopped by command";
+    case Reason::kTakingOver:
+      return "in flight when the planner started; its last trajectory goes on until all inputs are known";
   }
   return "unknown reason";
 }

@@ -15,6 +15,7 @@
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
+#include "swarm_planner/swarm/takeover.hpp"
 #include "swarm_planner/swarm/thread_team.hpp"
 #include "swarm_planner/swarm/uav_planner.hpp"
 
@@ -22,6 +23,12 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::vector<Vector3> homesOf(const Scenario& scenario) {
+  std::vector<Vector3> homes;
+  for (const ScenarioUav& uav : scenario.uavs) homes.push_back(uav.start);
+  return homes;
+}
 
 }  // namespace
 
@@ -33,6 +40,7 @@ class SwarmPlanner::Impl {
         bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
         tracks(parameters.input.track_timeout, maxTracks(mission), uavs.size()),
         surroundings(parameters, uavs.size(), maxTracks(mission)),
+        takeover(homesOf(mission.scenario)),
         director(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
@@ -41,7 +49,7 @@ class SwarmPlanner::Impl {
       uavs[i].name = uav.name;
       uavs[i].foreign = uav.external;
       if (uav.external) uavs[i].task.mode = FlightMode::kAbsent;
-      starts.push_back(uav.start);
+      uavs[i].beginning.home = uav.start;
       uavs[i].setReference(uav.reference, uav.target.start, uav.target.speed);
     }
     report.uavs.resize(uavs.size());
@@ -57,6 +65,8 @@ class SwarmPlanner::Impl {
 
   void reset() {
     report.started = false;
+    planning = false;
+    takeover.reset();
     tracks.reset();
     for (UavRecord& uav : uavs) uav.reset();
   }
@@ -78,6 +88,15 @@ class SwarmPlanner::Impl {
     uav.task.enter(mode);
   }
 
+  void takeOver(const FlightMemory& memory) {
+    report.started = true;
+    report.time_zero = memory.time_zero;
+    takeover.reset(memory.obstacles);
+    const std::size_t count = std::min(uavs.size(), memory.uavs.size());
+    for (std::size_t i = 0; i < count; ++i) swarm_planner::takeOver(memory.uavs[i], uavs[i]);
+    beginRun();
+  }
+
   void plan(const Snapshot& snapshot, double epoch, double budget) {
     const Stopwatch stopwatch;
     ++report.cycle;
@@ -86,8 +105,8 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     judgeMeasurements(snapshot);
     report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
-    if (!report.started && mayStart()) start(epoch);
-    if (report.started) planAll(snapshot, epoch, stopwatch, budget);
+    if (!planning) start(snapshot, epoch);
+    if (planning) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
 
@@ -126,20 +145,51 @@ class SwarmPlanner::Impl {
     }
   }
 
-  /// Whether the odometry of every UAV of the swarm has arrived, and some UAV is to fly.
-  bool mayStart() const {
-    bool some = false;
+  /// Begins to plan if it is time to: on the ground when the odometry of every UAV of the swarm has arrived, in flight
+  /// when the takeover is ready.
+  void start(const Snapshot& snapshot, double epoch) {
+    takeover.noteCycle(snapshot.now);
     for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (uavs[i].foreign) continue;
-      if (judged[i] != Reason::kNone) return false;
-      some = some || parameters.input.autostart || isPlannedFor(uavs[i].task.mode);
+      if (judged[i] == Reason::kNone && !uavs[i].foreign) takeover.observe(i, snapshot.uavs[i]);
     }
-    return some;
+    const bool in_flight = report.started || takeover.findsFlight();
+    const bool commanded = report.started || isCommanded();
+    planning = commanded && (in_flight ? takeover.isReady(tracks.tracks().size()) : allArrived());
+    if (planning && !report.started) {
+      report.started = true;
+      report.time_zero = epoch;
+      beginRun();
+    }
+    if (in_flight && commanded) reportTakeover();
   }
 
-  void start(double epoch) {
-    report.started = true;
-    report.time_zero = epoch;
+  void reportTakeover() {
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (uavs[i].foreign) continue;
+      if (judged[i] != Reason::kNone) {
+        report.uavs[i].state = UavState::kLost;
+      } else if (!planning) {
+        report.uavs[i].state = UavState::kFallback;
+        report.uavs[i].reason = Reason::kTakingOver;
+      }
+    }
+  }
+
+  bool allArrived() const {
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (!uavs[i].foreign && judged[i] != Reason::kNone) return false;
+    }
+    return true;
+  }
+
+  /// Whether some UAV is to be planned for.
+  bool isCommanded() const {
+    return std::any_of(uavs.begin(), uavs.end(), [this](const UavRecord& uav) {
+      return !uav.foreign && (parameters.input.autostart || isPlannedFor(uav.task.mode));
+    });
+  }
+
+  void beginRun() {
     if (!parameters.input.autostart) return;
     for (UavRecord& uav : uavs) uav.task.mode = transition(uav.task.mode, FlightEvent::kRunStarts).mode;
   }
@@ -199,7 +249,7 @@ class SwarmPlanner::Impl {
     if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
     const std::optional<UavMeasurement>& last = uav.monitor.trusted();
     // Before it is seen first it is where the scenario starts it.
-    const UavMeasurement at_start{false, snapshot.now, starts[i], Vector3::Zero()};
+    const UavMeasurement at_start{false, snapshot.now, uavs[i].beginning.home, Vector3::Zero()};
     foreign_bodies.push_back(seen   ? seenForeign(i, *last, parameters)
                              : last ? unseenForeign(i, *last, parameters)
                                     : seenForeign(i, at_start, parameters));
@@ -215,7 +265,13 @@ class SwarmPlanner::Impl {
       uav.reference_pending = false;
     }
     if (isToPlan(i)) {
-      uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
+      if (uav.beginning.pending) {
+        const ObservedFlight& flight = takeover.flight(i);
+        const bool observed = takeover.findsFlight() && flight.count() > 0;
+        begin(snapshot.uavs[i], epoch, parameters, bounds, observed ? &flight : nullptr, uav);
+      } else {
+        uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
+      }
       director.direct(epoch, snapshot.uavs[i], uav);
     } else if (isPlannedFor(uav.task.mode)) {
       uav.loseSight(parameters);
@@ -248,10 +304,11 @@ class SwarmPlanner::Impl {
     }
   }
 
-  std::vector<Vector3> starts;  ///< of the scenario [m]
   TrackMemory tracks;
   std::vector<ForeignBody> foreign_bodies;  ///< of this cycle
   Surroundings surroundings;
+  Takeover takeover;
+  bool planning = false;  ///< the first plans have been made
   FlightDirector director;
   SolveOrder order;
   ThreadTeam team;
@@ -314,6 +371,11 @@ void SwarmPlanner::setForeign(std::size_t uav, bool foreign) {
 }
 
 bool SwarmPlanner::isForeign(std::size_t uav) const { return impl_->uavs[uav].foreign; }
+double SwarmPlanner::progress(std::size_t uav) const { return impl_->uavs[uav].progress; }
+
+void SwarmPlanner::takeOver(const FlightMemory& memory) { impl_->takeOver(memory); }
+
+void SwarmPlanner::restoreMode(std::size_t uav, FlightMode mode) { impl_->enter(uav, mode); }
 
 void SwarmPlanner::reset() { impl_->reset(); }
 

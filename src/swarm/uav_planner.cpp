@@ -63,6 +63,7 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   reference.start = arc_length;
   given_start = arc_length;
   reference.speed = speed;
+  beginning.on_reference = false;
   reference_pending = true;
   on_reference = false;
 }
@@ -72,6 +73,7 @@ void UavRecord::reset() {
   planned = false;
   deviation.setZero();
   task.enter(task.mode);
+  beginning.reset();
   reference.start = given_start;
   reference_pending = true;
   on_reference = false;

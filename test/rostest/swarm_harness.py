@@ -4,9 +4,12 @@
 import json
 import math
 import os
+import signal
 import threading
 import time
+import xmlrpc.client
 
+import rosgraph
 import rospy
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
@@ -27,6 +30,16 @@ def wait_for(condition, what, timeout=PATIENCE):
             return value
         time.sleep(0.02)
     raise AssertionError('waited in vain for ' + what)
+
+
+def node_api(name):
+    """The XML-RPC interface of a node; raises if there is none."""
+    return xmlrpc.client.ServerProxy(rosgraph.Master('/test').lookupNode(rospy.resolve_name(name)))
+
+
+def kill_node(name):
+    """kill -9"""
+    os.kill(node_api(name).getPid('/test')[2], signal.SIGKILL)
 
 
 def wait_for_summary(path, timeout=PATIENCE):

@@ -5,6 +5,7 @@
 #include <ros/service_server.h>
 #include <std_srvs/Trigger.h>
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -28,8 +29,8 @@ void summarise(const std::string& command, const std::vector<std::string>& names
 /// queue, so that none runs beside another or beside the planning cycle.
 class CommandServices {
  public:
-  /// `planner` must outlive this.
-  CommandServices(const std::vector<std::string>& uav_names, SwarmPlanner& planner);
+  /// `planner` must outlive this. `commanded` is called after every command.
+  CommandServices(const std::vector<std::string>& uav_names, SwarmPlanner& planner, std::function<void()> commanded);
   CommandServices(const CommandServices&) = delete;
   CommandServices& operator=(const CommandServices&) = delete;
 
@@ -40,6 +41,7 @@ class CommandServices {
   const std::vector<std::string> names_;
   std::map<std::string, std::size_t> index_;
   SwarmPlanner& planner_;
+  const std::function<void()> commanded_;
   std::vector<ros::ServiceServer> servers_;
 };
 

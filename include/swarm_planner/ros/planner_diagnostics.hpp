@@ -24,9 +24,9 @@ class PlannerDiagnostics {
   void addCycle(const PlannerStatus& status);
   /// Notes a request for a new reference.
   void addReference(bool accepted) { ++(accepted ? references_ : references_refused_); }
-  /// Publishes the state since the last call; `now` [s] is ROS time.
+  /// Publishes the state since the last call; `now` [s] is ROS time, `clock` what is amiss with it.
   void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, const TransformInputReport& transforms,
-               double now);
+               double now, const std::string& clock);
   /// Time has jumped back: rates start anew.
   void restart();
 
@@ -47,6 +47,7 @@ class PlannerDiagnostics {
   TransformInputReport transforms_, last_transforms_;
   std::uint64_t references_ = 0, references_refused_ = 0;
   double now_ = 0.0, last_time_ = 0.0;  ///< [s]
+  std::string clock_;                   ///< what is amiss with ROS time
   StatusTally tally_;                   ///< since the last publication
 };
 

@@ -7,12 +7,15 @@
 #include <ros/wall_timer.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/SetReference.h"
+#include "swarm_planner/ros/clock_watch.hpp"
 #include "swarm_planner/ros/command_services.hpp"
+#include "swarm_planner/ros/flight_record.hpp"
 #include "swarm_planner/ros/marker_publisher.hpp"
 #include "swarm_planner/ros/planner_diagnostics.hpp"
 #include "swarm_planner/ros/planner_inputs.hpp"
@@ -42,6 +45,14 @@ class PlannerNode {
   void tellOperator() const;
   void resetAfterTimeJump(double now);
   void advertiseServices();
+  /// Opens the flight's record and takes the operators' orders of a planner before from it.
+  void openRecord(const std::string& path, const Mission& mission);
+  /// Takes over what UAVs fly from the record, in the first cycle.
+  void takeOver(double now);
+  /// Writes down what UAVs have been told to do, for a planner that may have to take over.
+  void keepModes();
+  /// Diagnostics, in wall time: they go on where ROS time does not.
+  void reportHealth();
   bool setReference(SetReference::Request& request, SetReference::Response& response);
   void refuseReference(const std::string& why, SetReference::Response& response);
   std::vector<Vector3> pathInPlanningFrame(const SetReference::Request& request) const;
@@ -56,6 +67,13 @@ class PlannerNode {
   PlannerOutputs outputs_;
   PlannerDiagnostics diagnostics_;
   MarkerPublisher markers_;
+
+  std::unique_ptr<FlightRecord> record_;  ///< null: none is kept
+  ClockWatch clock_;
+  const double track_timeout_;        ///< [s]
+  double next_health_warning_ = 0.0;  ///< wall time [s]
+  bool has_cycled_ = false;
+  std::vector<FlightMode> modes_;  ///< of the UAVs, as last kept
 
   PlanningBudget budget_;
   Snapshot snapshot_;

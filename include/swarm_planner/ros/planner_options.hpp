@@ -31,6 +31,7 @@ struct PlannerNodeOptions {
   double uav_marker_size = 0.0;    ///< [m], 0: by the scene's size
   double trail_duration = 60.0;    ///< [s]
   double diagnostic_period = 1.0;  ///< [s]
+  std::string flight_record;       ///< path of FlightRecord, "auto": defaultRecordPath, empty: none
 };
 
 /// Every parameter of PlannerNodeOptions with default and range.

@@ -32,6 +32,9 @@ class CommittedMotion {
   void assignRest(double epoch, const Vector3& position);
   /// How many pieces have ended by `t` [s].
   int endedPieces(double t) const;
+  /// `pieces` (at most kMaxPieces) of length `dt` with the control points `points`, 3 pieces + 1: as piece() gives
+  /// them.
+  void assignPoints(double epoch, double dt, int pieces, const Vector3* points);
   /// Forgets the first `count` pieces (at most all): what is left begins at a later epoch.
   void dropPieces(int count);
 

@@ -31,6 +31,14 @@ class MotionMemory {
   /// newest one by more than `difference` [m].
   void compare(double stamp, const Vector3& p, double difference);
 
+  /// Starts anew: the UAV flew `past` until motion.epoch(), and is to fly `motion` from then on.
+  void begin(const CommittedMotion& past, const CommittedMotion& motion);
+  /// As another planner left it: commit(older), if there is one, then commit(newest).
+  void restore(const CommittedMotion& newest, const CommittedMotion* older);
+  /// Of two motions that may be flown since long ago forgets the one that position `p` [m] at `stamp` [s] is farther
+  /// from, even if hardly.
+  void keepNearest(double stamp, const Vector3& p);
+
   /// From motion.epoch() on the UAV is to fly `motion`.
   void commit(const CommittedMotion& motion);
   /// The UAV has been found elsewhere: from motion.epoch() on it is to fly `motion`, and where it was to be before is
@@ -41,6 +49,7 @@ class MotionMemory {
 
  private:
   void push(const CommittedMotion& motion);
+  void forgetLost();
 
   std::array<CommittedMotion, 2> motions_;
   std::size_t newest_ = 0;

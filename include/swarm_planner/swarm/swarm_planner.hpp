@@ -10,6 +10,7 @@
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
 #include "swarm_planner/swarm/flight_commands.hpp"
+#include "swarm_planner/swarm/flight_memory.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/snapshot.hpp"
@@ -54,6 +55,7 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
+  kTakingOver,  ///< in flight at the planner's start: what it flies goes on until inputs are known
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -137,6 +139,14 @@ class SwarmPlanner {
   /// and to join.
   void setForeign(std::size_t uav, bool foreign);
   bool isForeign(std::size_t uav) const;
+
+  /// Arc length of the foot of the newest start on the UAV's reference [m].
+  double progress(std::size_t uav) const;
+
+  /// Goes on with the run of a planner that is gone, instead of starting one. Before the first cycle.
+  void takeOver(const FlightMemory& memory);
+  /// The mode in which a planner that is gone has left a UAV. Before the first cycle.
+  void restoreMode(std::size_t uav, FlightMode mode);
 
   /// Forgets plans, tracks and time zero (a backward jump of time). References stay as given, also those set later, and
   /// so do the UAVs' modes.

@@ -15,6 +15,7 @@
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
+#include "swarm_planner/swarm/takeover.hpp"
 
 namespace swarm_planner {
 
@@ -22,17 +23,18 @@ namespace swarm_planner {
 struct UavRecord {
   std::string name;
   MovingTarget reference;
+  double given_start = 0.0;       ///< of the reference as it was given: pauses move reference.start on [m]
   bool reference_pending = true;  ///< its time zero is the next epoch
   bool on_reference = false;      ///< progress holds
   double progress = 0.0;          ///< arc length of the foot of the last start [m]
   MotionMemory motions;           ///< a rest where it was measured before its first plan
   bool planned = false;           ///< the newest motion comes from a plan
+  Beginning beginning;            ///< how it comes to be planned for
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  FlightTask task;           ///< what it is to do, as commands left it
-  double given_start = 0.0;  ///< of the reference as it was given: pauses move reference.start on [m]
-  ActiveRows active;         ///< of the last QP, at `active_epoch`
+  FlightTask task;    ///< what it is to do, as commands left it
+  ActiveRows active;  ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it

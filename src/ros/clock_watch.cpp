@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/ros/clock_watch.hpp"
+
+#include <cstdio>
+
+namespace swarm_planner {
+
+void ClockWatch::note(double now, double wall) {
+  if (now != now_) {
+    now_ = now;
+    since_ = wall;
+  }
+  fault_.clear();
+  if (wall - since_ < kPatience) return;
+  if (now == 0.0) {
+    fault_ = "no planning: waiting for ROS time, nothing has come on /clock (use_sim_time is set)";
+    return;
+  }
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "no planning: ROS time (/clock) has stood still at %.2f s for %.0f s; UAVs end their last trajectories",
+                now, wall - since_);
+  fault_ = text;
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+"""Breaks for the user: a planner that is silent, and does not say why, because /clock stands still or never came, or
+that does not recover when ROS time goes on or has jumped."""
+
+import threading
+import time
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rosgraph_msgs.msg import Clock
+from swarm_harness import Planner, Recorder, three_in_line, wait_for
+from swarm_planner.msg import UavStatus
+
+STEP = 0.02
+SPEED = 2.0
+
+
+class ClockFaultsTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('test_clock_faults')
+        cls.planner = Planner()
+        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.vehicles = three_in_line()
+        cls.clock = rospy.Publisher('/clock', Clock, queue_size=1)
+        cls.now = 500.0
+        cls.runs = threading.Event()
+        threading.Thread(target=cls.run_clock, daemon=True).start()
+
+    @classmethod
+    def run_clock(cls):
+        while not rospy.is_shutdown():
+            time.sleep(STEP / SPEED)
+            if not cls.runs.is_set():
+                continue
+            cls.now += STEP
+            stamp = rospy.Time.from_sec(cls.now)
+            cls.clock.publish(Clock(clock=stamp))
+            for vehicle in cls.vehicles:
+                vehicle.publish(stamp)
+
+    def health(self):
+        """What diagnostics said last of the cycle: (level, message)."""
+        return next(((each.level, each.message) for array in reversed(self.diagnostics.all())
+                     for each in array.status if each.name.endswith(': planning cycle')), (None, ''))
+
+    def wait_for_health(self, level, text):
+        wait_for(lambda: self.health()[0] == level and text in self.health()[1], 'diagnostics that say: ' + text)
+
+    def wait_for_tracking(self):
+        wait_for(lambda: self.planner.status.last() and
+                 all(uav.state == UavStatus.TRACKING for uav in self.planner.status.last().uavs), 'tracking')
+
+    def test_1_time_that_has_not_come_is_told(self):
+        self.wait_for_health(DiagnosticStatus.ERROR, 'waiting for ROS time')
+        self.assertEqual(self.planner.status.count(), 0, 'no cycles without time')
+        self.runs.set()
+        self.planner.wait_for_start()
+        self.wait_for_tracking()
+        self.wait_for_health(DiagnosticStatus.OK, 'planning')
+
+    def test_2_time_that_stands_still_is_told_and_ends_without_a_jump(self):
+        self.runs.clear()
+        time.sleep(0.3)
+        cycles = self.planner.status.count()
+        self.wait_for_health(DiagnosticStatus.ERROR, 'stood still')
+        self.assertLessEqual(self.planner.status.count(), cycles + 1)
+        last = {vehicle.name: vehicle.state(rospy.Time.from_sec(self.now))[0] for vehicle in self.vehicles}
+        self.runs.set()
+        self.wait_for_tracking()
+        self.wait_for_health(DiagnosticStatus.OK, 'planning')
+        for vehicle in self.vehicles:
+            # 2 m/s: it goes on from where time stopped it.
+            self.assertLess(abs(vehicle.state(rospy.Time.from_sec(self.now))[0][1] - last[vehicle.name][1]), 0.5)
+            self.assertGreater(vehicle.state(rospy.Time.from_sec(self.now))[0][0], last[vehicle.name][0] - 0.1)
+
+    def jump(self, to):
+        """ROS time jumps; returns the first status in which all UAVs track afterwards."""
+        before = rospy.Time.from_sec(self.now)
+        self.planner.status.clear()
+        type(self).now = to
+        backwards = to < before.to_sec()
+
+        def recovered():
+            return next((status for status in self.planner.status.all()
+                         if (status.header.stamp < before if backwards else status.header.stamp.to_sec() >= to) and
+                         all(uav.state == UavStatus.TRACKING for uav in status.uavs)), None)
+        return wait_for(recovered, 'tracking after a jump of time')
+
+    def test_3_forward_jump(self):
+        status = self.jump(self.now + 60.0)
+        self.assertLess(status.header.stamp.to_sec(), self.now + 5.0)
+
+    def test_4_backward_jump_in_flight_lets_targets_go_on_where_uavs_are(self):
+        # The targets moved on by 120 m with the time; the vehicles follow and are well away from their starts.
+        wait_for(lambda: self.vehicles[0].state(rospy.Time.from_sec(self.now))[0][0] > 15.0, 'a flight of 15 m')
+        for vehicle in self.vehicles:
+            # They stay where they are: their trajectories are of a time that is not yet.
+            vehicle.start = vehicle.state(rospy.Time.from_sec(self.now))[0]
+        status = self.jump(100.0)
+        self.assertLess(abs(status.time_zero.to_sec() - 100.0), 20.0, 'the run starts anew')
+        for vehicle, uav in zip(self.vehicles, status.uavs):
+            self.assertGreater(uav.target.x, vehicle.start[0] - 2.0, 'it flies back')
+            self.assertLess(uav.target.x, vehicle.start[0] + 10.0, 'it jumps ahead')
+
+
+if __name__ == '__main__':
+    rostest.rosrun('swarm_planner', 'clock_faults', ClockFaultsTest)
