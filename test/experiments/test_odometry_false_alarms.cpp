@@ -12,8 +12,8 @@
 namespace swarm_planner {
 namespace {
 
-constexpr Reason kFaults[] = {Reason::kOdometryStale, Reason::kOdometryFromFuture, Reason::kOdometryNotFinite,
-                              Reason::kOdometryFrozen, Reason::kOdometryJumps,     Reason::kOdometryBackwards,
+constexpr Reason kFaults[] = {Reason::kOdometryStale,  Reason::kOdometryFromFuture, Reason::kOdometryNotFinite,
+                              Reason::kOdometryFrozen, Reason::kOdometryJumps,      Reason::kOdometryBackwards,
                               Reason::kOffPlan};
 
 void expectNoFault(const Scenario& scenario, const ParameterMap& given, std::uint64_t seed) {
