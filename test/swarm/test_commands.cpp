@@ -115,14 +115,22 @@ TEST(Stop, IsShorterThanAHoldAndStays) {
 TEST(Stop, DoesNotEndInTheWayOfAnObstacle) {
   Mission mission = oneUav();
   ScenarioObstacle obstacle;
-  obstacle.center = Vector3(25, -24, 10);
+  obstacle.center = Vector3(26, -36, 10);
   obstacle.radii = Vector3(2.5, 2.5, 4);
   obstacle.velocity = Vector3(0, 3, 0);
   mission.scenario.obstacles.push_back(obstacle);
   PerfectFlight flight(mission);
   flight.cycles(20);
+  StopManoeuvre quickest;
+  planStop(flight.planner().committed(0).at(flight.now() + kPeriod), kPeriod, FlightBounds(mission.parameters, nullptr),
+           quickest);
+  double least = 1.0;
+  for (double t = flight.now(); t < flight.now() + 15.0; t += 0.1) {
+    least = std::min(least, flight.obstacle(0, t).signedDistance(quickest.restingPlace()));
+  }
+  ASSERT_LT(least, 0.0) << "the quickest stop would do: this shows nothing";
   flight.planner().command(0, FlightCommand::kStop);
-  flight.cycles(60);
+  flight.cycles(80);
   EXPECT_GE(flight.leastObstacleDistance(), LimitParameters().uav_radius);
   EXPECT_LT(flight.vehicle(0).v.norm(), 0.05);
   EXPECT_EQ(flight.planner().report().uavs[0].state, UavState::kStopped);
