@@ -75,7 +75,7 @@ void FaultWatch::begin(Record& record) {
 }
 
 void FaultWatch::watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const {
-  if (t <= record.end) record.moved = std::max(record.moved, (vehicle.state().p - record.place).norm());
+  if (t <= record.end - twoCycles()) record.moved = std::max(record.moved, (vehicle.state().p - record.place).norm());
   const Uav& uav = uavs_[record.uav];
   const bool next_flies = uav.has_next && t >= uav.next.epoch();
   if (!next_flies && !uav.has_due) return;
@@ -99,6 +99,7 @@ void FaultWatch::onCycle(double epoch, const CycleReport& report) {
   }
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
+    if (now >= visibleFrom(record) && now < record.end) ++record.met;
     if (record.reported || record.uav >= uavs_.size() || now > record.end + kReportTime) continue;
     if (!tellsOfFault(report.uavs[record.uav].reason)) continue;
     record.reported = true;
@@ -117,24 +118,28 @@ void FaultWatch::recover(std::size_t uav, double epoch) {
   recovered.waiting = false;
 }
 
+double FaultWatch::visibleFrom(const Record& record) const {
+  const bool after_timeout =
+      record.fault.kind == FaultKind::kOdometryLost || record.fault.kind == FaultKind::kOdometryFrozen;
+  return record.fault.at + (after_timeout ? parameters_.input.odometry_timeout : 0.0);
+}
+
 bool FaultWatch::isNoticeable(const Record& record) const {
-  const double cycles = 2.0 * parameters_.time.cycle_period;
-  const double timeout = parameters_.input.odometry_timeout;
   const double margins = 2.0 * parameters_.limits.tracking_margin;
   const FaultInjection& fault = record.fault;
+  const bool met = record.met >= 2;
   switch (fault.kind) {
     case FaultKind::kOdometryLost:
-      return fault.duration > timeout + cycles;
-    case FaultKind::kOdometryStale:
-      return fault.magnitude > timeout && fault.duration > cycles;
     case FaultKind::kOdometryNotFinite:
-      return fault.duration > cycles;
+      return met;
+    case FaultKind::kOdometryStale:
+      return met && fault.magnitude > parameters_.input.odometry_timeout;
     case FaultKind::kOdometryFrozen:
-      return fault.duration > timeout + cycles && record.moved > margins;
+      return met && record.moved > margins;
     case FaultKind::kOdometryJump:
-      return fault.duration > cycles && fault.magnitude > margins;
+      return met && fault.magnitude > margins;
     case FaultKind::kOdometryDrift:
-      return fault.magnitude * (fault.duration - cycles) > margins;
+      return met && fault.magnitude * (fault.duration - twoCycles()) > margins;
     case FaultKind::kSetpointsLost:
     case FaultKind::kSetpointsIgnored:
     case FaultKind::kPush:

@@ -12,9 +12,10 @@ namespace swarm_planner {
 ///
 /// A fault is reported when its UAV's report bears a reason that tells of the vehicle, its odometry or its setpoints,
 /// while the fault lasts or within kReportTime after it. Noticeable, so that it has to be reported, is
-///   - odometry that is unusable for longer than odometry_timeout and two cycles,
-///   - odometry in whose place or time the fault makes a difference beyond what noise is taken for: two tracking
-///     margins, for two cycles,
+///   - odometry that cannot be used, once two cycles have met it (lost odometry: after odometry_timeout);
+///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
+///   two
+///     cycles have met it (frozen odometry: after odometry_timeout);
 ///   - a vehicle farther than two tracking margins from the motion that it should fly for kStrayTime: less cannot be
 ///     told from wind and noise, as the planner averages over some cycles.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
@@ -41,8 +42,9 @@ class FaultWatch : public RunObserver {
     FaultInjection fault;
     std::size_t uav = 0;              ///< uavs_.size(): all
     double end = 0.0;                 ///< [s]
+    int met = 0;                      ///< cycles that had to see it
     Vector3 place = Vector3::Zero();  ///< of the vehicle when it began [m]
-    double moved = 0.0;               ///< farthest from there while it lasted [m]
+    double moved = 0.0;               ///< farthest from there until two cycles before its end [m]
     double strayed_since = 0.0, strayed_for = 0.0;
     bool strays = false;
     double first_report = 0.0;
@@ -59,10 +61,13 @@ class FaultWatch : public RunObserver {
     std::size_t unrecovered = 0;  ///< the first record that it has not recovered from, if it is concerned
   };
 
+  double twoCycles() const { return 2.0 * parameters_.time.cycle_period; }  ///< [s]
   bool concerns(const Record& record, std::size_t uav) const { return record.uav == uav || record.uav == uavs_.size(); }
   void watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const;
   void begin(Record& record);
   void recover(std::size_t uav, double epoch);
+  /// When the planner can see the fault at the earliest [s].
+  double visibleFrom(const Record& record) const;
   bool isNoticeable(const Record& record) const;
 
   const Parameters& parameters_;
