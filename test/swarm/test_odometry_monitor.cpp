@@ -36,7 +36,7 @@ class Monitor : public ::testing::Test {
   }
   void commitRest(const Vector3& p) {
     CommittedMotion motion;
-    motion.assignRest(kBegin, p);
+    motion.assignRest(kBegin - 100.0, p);
     motions_.commit(motion);
   }
 
