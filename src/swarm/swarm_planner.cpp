@@ -193,6 +193,9 @@ class SwarmPlanner::Impl {
     UavRecord& uav = uavs[i];
     const bool seen = judged[i] == Reason::kNone;
     if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
+    // On its motion it is where everybody's plans were checked against. To demand that it may as well fly straight on
+    // would leave UAVs that are close to it no plan.
+    if (seen && !uav.motions.empty()) return;
     const std::optional<UavMeasurement>& last = uav.monitor.trusted();
     // Before it is seen first it is where the scenario starts it.
     const UavMeasurement at_start{false, snapshot.now, starts[i], Vector3::Zero()};
