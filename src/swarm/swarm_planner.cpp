@@ -222,7 +222,7 @@ class SwarmPlanner::Impl {
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
-      surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
+      surroundings.setMotions(i, uav.motions.newest(), uav.motions.olderInFlight(epoch, parameters.time.cycle_period));
     }
     if (isToPlan(i)) surroundings.setPlanning(i, uav.start);
   }
