@@ -56,6 +56,7 @@ void MotionMemory::push(const CommittedMotion& motion) {
   if (count_ > 0 && !on_older_) newest_ = 1 - newest_;
   count_ = std::min(count_ + 1, 2);
   motions_[newest_] = motion;
+  newest_since_ = motion.epoch();
   on_older_ = false;
 }
 

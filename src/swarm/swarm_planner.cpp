@@ -247,6 +247,9 @@ class SwarmPlanner::Impl {
     UavRecord& uav = uavs[i];
     const bool seen = judged[i] == Reason::kNone;
     if (seen && !uav.motions.empty() && !uav.isOnMotion(snapshot.uavs[i], parameters)) uav.forgetMotions();
+    // On its motion it is where everybody's plans were checked against. To demand that it may as well fly straight on
+    // would leave UAVs that are close to it no plan.
+    if (seen && !uav.motions.empty()) return;
     const std::optional<UavMeasurement>& last = uav.monitor.trusted();
     // Before it is seen first it is where the scenario starts it.
     const UavMeasurement at_start{false, snapshot.now, uavs[i].beginning.home, Vector3::Zero()};
@@ -279,7 +282,7 @@ class SwarmPlanner::Impl {
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);
     } else {
-      surroundings.setMotions(i, uav.motions.newest(), uav.motions.older());
+      surroundings.setMotions(i, uav.motions.newest(), uav.motions.olderInFlight(epoch, parameters.time.cycle_period));
     }
     if (isToPlan(i)) surroundings.setPlanning(i, uav.start);
   }

@@ -197,7 +197,8 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   } else {
     report.reason = flyOn(uav, epoch, record, surroundings, report);
   }
-  surroundings.replaceMotions(uav, record.motions.newest(), record.motions.older());
+  surroundings.replaceMotions(uav, record.motions.newest(),
+                              record.motions.olderInFlight(epoch, parameters_.time.cycle_period));
   fillReport(epoch, record, report);
   report.solve_time = stopwatch.elapsed();
 }

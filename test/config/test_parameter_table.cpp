@@ -30,6 +30,8 @@ const Place kPlaces[] = {
     {"tracking_margin", 0.11, [](const Parameters& p) -> ParameterValue { return p.limits.tracking_margin; }},
     {"pair_margin", 0.23, [](const Parameters& p) -> ParameterValue { return p.limits.pair_margin; }},
     {"tracking_error", 0.07, [](const Parameters& p) -> ParameterValue { return p.limits.tracking_error; }},
+    {"land_speed", 0.61, [](const Parameters& p) -> ParameterValue { return p.landing.speed; }},
+    {"ground_height", -0.62, [](const Parameters& p) -> ParameterValue { return p.landing.ground_height; }},
     {"avoidance", false, [](const Parameters& p) -> ParameterValue { return p.limits.avoidance; }},
     {"plan_check", false, [](const Parameters& p) -> ParameterValue { return p.limits.plan_check; }},
     {"segment_constraints", false, [](const Parameters& p) -> ParameterValue { return p.limits.segment_constraints; }},

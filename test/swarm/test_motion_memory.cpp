@@ -211,5 +211,30 @@ TEST(MotionMemory, KnowsWhatWasFlownSomeCyclesAgo) {
   }
 }
 
+// A UAV that rests for long is sent its rest in every cycle: what it flew before the stop is no place to keep clear of.
+TEST(MotionMemory, TheOlderMotionIsInFlightForTwoCyclesOnly) {
+  constexpr double kPeriod = 0.3;
+  MotionMemory memory;
+  CommittedMotion rest;
+  rest.assignRest(0.3, Vector3(0, 0, 1));
+  memory.commit(rest);
+  EXPECT_EQ(memory.olderInFlight(0.3, kPeriod), nullptr);
+  rest.assignRest(0.6, Vector3(0, 0, 2));
+  memory.commit(rest);
+  EXPECT_EQ(memory.olderInFlight(0.6, kPeriod), memory.older());
+  ASSERT_NE(memory.older(), nullptr);
+  memory.goOn(0.9);
+  EXPECT_EQ(memory.olderInFlight(0.9, kPeriod), memory.older());
+  for (double epoch : {1.2, 1.5, 30.0}) {
+    memory.goOn(epoch);
+    EXPECT_EQ(memory.olderInFlight(epoch, kPeriod), nullptr) << epoch;
+    EXPECT_NE(memory.older(), nullptr) << "odometry may still tell that it is flown";
+  }
+  memory.commit(rest);
+  rest.assignRest(30.3, Vector3(0, 0, 3));
+  memory.commit(rest);
+  EXPECT_NE(memory.olderInFlight(30.3, kPeriod), nullptr);
+}
+
 }  // namespace
 }  // namespace swarm_planner

@@ -20,6 +20,11 @@ class MotionMemory {
   const CommittedMotion& newest() const { return motions_[newest_]; }
   /// What is flown if the newest one did not arrive; null if there is none.
   const CommittedMotion* older() const { return count_ > 1 ? &motions_[1 - newest_] : nullptr; }
+  /// The same in the cycle of `epoch` [s], while it may be flown: a motion that goes on is sent again in every cycle of
+  /// `period` [s], and not every time in vain.
+  const CommittedMotion* olderInFlight(double epoch, double period) const {
+    return newest_since_ > epoch - 1.5 * period ? older() : nullptr;
+  }
   /// What the UAV flies as far as is known; not if empty.
   const CommittedMotion& flown() const { return on_older_ ? motions_[1 - newest_] : newest(); }
   /// Whether odometry has shown that the newest motion did not arrive.
@@ -55,7 +60,8 @@ class MotionMemory {
   std::size_t newest_ = 0;
   int count_ = 0;
   bool on_older_ = false;
-  FlownPath path_;  ///< before flown()
+  double newest_since_ = 0.0;  ///< its epoch when it was committed [s]
+  FlownPath path_;             ///< before flown()
 };
 
 }  // namespace swarm_planner
