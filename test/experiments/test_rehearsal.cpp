@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDuration = 600.0;  // [s]
 
-RunResult rehearsed(const ParameterMap& given) { return flyExperimentRun(rehearsalRun(6, kDuration, 1, given)); }
+RunResult rehearsed(const ParameterMap& given) { return flyExperimentRun(rehearsalRun(6, kDuration, 2, given)); }
 
 TEST(Rehearsal, TenMinutesOfFaultsKeepEverybodyClearAndFlying) {
   const RunResult run = rehearsed({});
