@@ -9,7 +9,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kWarningPeriod = 5.0;  // [s]
-constexpr double kReportPeriod = 1.0;   // [s]
+constexpr double kReportPeriod = 0.5;   // [s]
 
 }  // namespace
 

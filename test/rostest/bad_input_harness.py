@@ -4,7 +4,6 @@
 import os
 import struct
 import subprocess
-import time
 import xmlrpc.client
 
 import rosgraph
@@ -41,32 +40,16 @@ class Diagnostics:
         """Publishes until the count has grown."""
         def grown():
             publish()
+            rospy.sleep(0.1)
             return self.count(name, key) > more_than
         wait_for(grown, '"%s" of %s above %d' % (key, name, more_than))
 
 
-    def wait_for_counts(self, name, key, items, pause=0.05):
-        """`items`: pairs of a cause and what publishes a message with it, once. All of them are counted, each under its
-        cause, in one round; a machine that stands still, or a queue of one message, may lose some, so there are more."""
-        causes = [cause for cause, _ in items]
-
-        def counts():
-            return {cause: self.count(name, key + ': ' + cause) for cause in causes}
-
-        def all_counted():
-            before = counts()
-            for _, publish in items:
-                publish()
-                rospy.sleep(pause)
-            end = time.time() + 5.0
-            while time.time() < end:
-                now = counts()
-                if all(now[cause] - before[cause] >= causes.count(cause) for cause in causes):
-                    return True
-                time.sleep(0.1)
-            print('counted of %s: %s' % (name, {cause: now[cause] - before[cause] for cause in causes}))
-            return False
-        wait_for(all_counted, 'every cause among "%s" of %s' % (key, name))
+    def wait_for_counts(self, name, key, items):
+        """`items`: pairs of a cause and what publishes a message with it. Each is counted under its cause; it is sent
+        again until then, as a queue of one message keeps only the newest."""
+        for cause, publish in items:
+            self.wait_for_count(name, key + ': ' + cause, self.count(name, key + ': ' + cause), publish)
 
 
 class Console:

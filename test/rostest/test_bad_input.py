@@ -77,10 +77,10 @@ class BadInputTest(unittest.TestCase):
     def dropped(self, entry, reason):
         return self.diagnostics.count(entry, DROPPED[entry] + ': ' + reason)
 
-    def assert_counted(self, entry, items, pause=0.05):
+    def assert_counted(self, entry, items):
         """Of each pair of a reason and a function that publishes, the message is counted; nobody is lost meanwhile."""
         self.planner.status.clear()
-        self.diagnostics.wait_for_counts(entry, DROPPED[entry], items, pause)
+        self.diagnostics.wait_for_counts(entry, DROPPED[entry], items)
         self.assertEqual(self.lost_since(self.planner.status.all()), [])
 
     def good_odometry(self):
@@ -101,12 +101,12 @@ class BadInputTest(unittest.TestCase):
             self.odometry.publish(message)
 
         table = (('not finite', position(math.nan)),
+                 ('too long', lambda m: setattr(m.header, 'frame_id', TEN_MEGABYTES)),
                  ('absurdly large', position(1e300)),
                  ('absurdly large', position(1e8)),
                  ('absurdly large', lambda m: setattr(m.twist.twist.linear, 'z', -1e8)),
                  ('bad orientation', norm(0.0)),
                  ('bad orientation', norm(1e150)),
-                 ('too long', lambda m: setattr(m.header, 'frame_id', TEN_MEGABYTES)),
                  ('too long', lambda m: setattr(m, 'child_frame_id', TEN_MEGABYTES)),
                  ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'y' * 3000)),
                  ('unknown frame', lambda m: setattr(m.header, 'frame_id', 'nowhere')),
@@ -174,7 +174,7 @@ class BadInputTest(unittest.TestCase):
                  ('malformed', b'\0\0'),
                  ('too old', track_array([], rospy.Time(0))),
                  ('from the future', track_array([], rospy.Time(4e9))))
-        self.assert_counted(TRACKS, [(reason, functools.partial(publish, raw)) for reason, raw in table], pause=0.1)
+        self.assert_counted(TRACKS, [(reason, functools.partial(publish, raw)) for reason, raw in table])
 
     def test_bad_tracks_in_a_good_array(self):
         def publish(center):

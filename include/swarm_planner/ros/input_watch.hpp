@@ -15,7 +15,7 @@
 namespace swarm_planner {
 
 /// Counts what the inputs of a node refuse, tells the operator on the console, at most every 5 s for each input, and
-/// publishes the counts on /diagnostics once per second. For nodes with one thread.
+/// publishes the counts on /diagnostics twice per second. For nodes with one thread.
 class InputWatch {
  public:
   explicit InputWatch(ros::NodeHandle& node);
