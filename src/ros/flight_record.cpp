@@ -139,9 +139,13 @@ std::optional<FlightMemory> FlightRecord::takeMotions(double now, double wall) {
   return left->memory;
 }
 
-bool FlightRecord::setMode(std::size_t uav, int mode) {
-  orders_[uav].mode = mode;
-  return writeOrders();
+bool FlightRecord::setModes(const std::vector<int>& modes) {
+  bool changed = false;
+  for (std::size_t i = 0; i < orders_.size(); ++i) {
+    changed = changed || orders_[i].mode != modes[i];
+    orders_[i].mode = modes[i];
+  }
+  return !changed || writeOrders();
 }
 
 bool FlightRecord::setReference(std::size_t uav, const UavOrders::Reference& reference) {

@@ -99,6 +99,7 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     report.refused_tracks = tracks.refused();
     judgeMeasurements(snapshot);
+    observeBeginners(snapshot);
     if (!planning) start(snapshot, epoch);
     if (planning) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
@@ -125,10 +126,16 @@ class SwarmPlanner::Impl {
     }
   }
 
+  void observeBeginners(const Snapshot& snapshot) {
+    takeover.beginCycle(snapshot.now);
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      if (judged[i] == Reason::kNone && uavs[i].beginning.pending) takeover.observe(i, snapshot.uavs[i]);
+    }
+  }
+
   /// Begins to plan if it is time to: on the ground when all odometry has arrived, in flight when the takeover is
   /// ready.
   void start(const Snapshot& snapshot, double epoch) {
-    takeover.observe(snapshot, judged);
     const bool in_flight = report.started || takeover.findsFlight();
     planning = in_flight ? takeover.isReady(tracks.tracks().size()) : allArrived(snapshot);
     planning = planning && (report.started || parameters.input.autostart);
@@ -179,9 +186,9 @@ class SwarmPlanner::Impl {
     uav.reference_pending = false;
     const bool measured = judged[i] == Reason::kNone;
     if (measured && uav.beginning.pending) {
-      const ObservedFlight& flight = takeover.flight(i);
-      const bool observed = takeover.findsFlight() && flight.count() > 0;
-      begin(snapshot.uavs[i], epoch, parameters, observed ? &flight : nullptr, uav);
+      // One that is seen later than the others is in flight, too, if they are.
+      const ObservedFlight* flight = takeover.findsFlight() ? &takeover.flight(i) : nullptr;
+      begin(snapshot.uavs[i], epoch, parameters, flight, uav);
     } else if (measured) {
       uav.predictStart(snapshot.uavs[i], epoch, parameters);
     }

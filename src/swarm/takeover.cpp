@@ -66,6 +66,7 @@ void resumeMission(double epoch, const Parameters& parameters, bool in_flight, U
 
 void ObservedFlight::add(const UavMeasurement& measurement) {
   if (count_ > 0 && measurement.stamp <= stamp()) return;
+  if (count_ > 0 && measurement.stamp > stamp() + kLongestGap) clear();
   if (count_ == samples_.size()) {
     std::rotate(samples_.begin(), samples_.begin() + 1, samples_.end());
     --count_;
@@ -138,15 +139,15 @@ void Takeover::reset(std::optional<std::size_t> obstacles) {
   finds_flight_ = false;
 }
 
-void Takeover::observe(const Snapshot& snapshot, const std::vector<Reason>& judged) {
-  now_ = snapshot.now;
-  if (!begin_) begin_ = now_;
-  for (std::size_t i = 0; i < flights_.size(); ++i) {
-    if (judged[i] != Reason::kNone) continue;
-    const UavMeasurement& measured = snapshot.uavs[i];
-    flights_[i].add(measured);
-    if (measured.v.norm() > kHovering || (measured.p - homes_[i]).norm() > kAtHome) finds_flight_ = true;
-  }
+void Takeover::beginCycle(double now) {
+  now_ = now;
+  if (!begin_) begin_ = now;
+}
+
+void Takeover::observe(std::size_t uav, const UavMeasurement& measurement) {
+  flights_[uav].add(measurement);
+  const bool away = (measurement.p - homes_[uav]).norm() > kAtHome;
+  if (measurement.v.norm() > kHovering || away) finds_flight_ = true;
 }
 
 bool Takeover::isReady(std::size_t tracks) const {

@@ -114,7 +114,7 @@ TEST_F(FlightRecordTest, KeepsOrdersUntilThereIsAnotherFlight) {
   {
     FlightRecord record(path, mission, "run", 1000.0);
     EXPECT_TRUE(record.setReference(1, {{Vector3(0.1, 1.0 / 3.0, 1e-9), Vector3(5, 6, 7)}, 0.25, 1.5}));
-    EXPECT_TRUE(record.setMode(0, 3));
+    EXPECT_TRUE(record.setModes({3, 0}));
     record.write(planner, 0, 100.0, 1000.0);
   }
   for (int restart = 0; restart < 3; ++restart) {

@@ -49,7 +49,7 @@ class FlightRecord {
   const std::string& ignored() const { return ignored_; }
 
   /// Keep an order. False if it could not be written: it does not outlive the process then.
-  bool setMode(std::size_t uav, int mode);
+  bool setModes(const std::vector<int>& modes);
   bool setReference(std::size_t uav, const UavOrders::Reference& reference);
 
   /// Keeps the motions of a cycle; before its setpoints are sent.
