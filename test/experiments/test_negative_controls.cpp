@@ -58,6 +58,13 @@ TEST(NegativeControls, WithoutLatencyCompensationLateMeasurementsMeanCollisions)
   EXPECT_GT(ofSwaps(9, {{"latency", 0.3}, {"latency_compensation", false}}).with_uav, 0);
 }
 
+// Wind takes vehicles off their motions: by up to 0.33 m here. tracking_error has to hold what they do.
+TEST(NegativeControls, WithoutRoomForTrackingErrorsWindMeansCollisions) {
+  const ParameterMap roomy = {{"wind", 1.0}, {"tracking_margin", 0.4}, {"pair_margin", 0.8}};
+  EXPECT_EQ(ofSwaps(4, roomy).with_uav, 0);
+  EXPECT_GT(ofSwaps(4, {{"wind", 1.0}}).with_uav, 0);
+}
+
 TEST(NegativeControls, AreToldInTheResult) {
   EXPECT_TRUE(leftOut(LimitParameters()).empty());
   for (const NegativeControl& control : kNegativeControls) {
