@@ -105,7 +105,8 @@ class SwarmPlanner::Impl {
     tracks.update(snapshot.obstacles, snapshot.now);
     judgeMeasurements(snapshot);
     report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
-    if (!planning) start(snapshot, epoch);
+    observeBeginners(snapshot);
+    if (!planning) start(epoch);
     if (planning) planAll(snapshot, epoch, stopwatch, budget);
     report.cycle_time = stopwatch.elapsed();
   }
@@ -145,13 +146,17 @@ class SwarmPlanner::Impl {
     }
   }
 
+  void observeBeginners(const Snapshot& snapshot) {
+    takeover.beginCycle(snapshot.now);
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      const bool begins = uavs[i].beginning.pending && !uavs[i].foreign;
+      if (begins && judged[i] == Reason::kNone) takeover.observe(i, snapshot.uavs[i]);
+    }
+  }
+
   /// Begins to plan if it is time to: on the ground when the odometry of every UAV of the swarm has arrived, in flight
   /// when the takeover is ready.
-  void start(const Snapshot& snapshot, double epoch) {
-    takeover.noteCycle(snapshot.now);
-    for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (judged[i] == Reason::kNone && !uavs[i].foreign) takeover.observe(i, snapshot.uavs[i]);
-    }
+  void start(double epoch) {
     const bool in_flight = report.started || takeover.findsFlight();
     const bool commanded = report.started || isCommanded();
     planning = commanded && (in_flight ? takeover.isReady(tracks.tracks().size()) : allArrived());
@@ -269,9 +274,9 @@ class SwarmPlanner::Impl {
     }
     if (isToPlan(i)) {
       if (uav.beginning.pending) {
-        const ObservedFlight& flight = takeover.flight(i);
-        const bool observed = takeover.findsFlight() && flight.count() > 0;
-        begin(snapshot.uavs[i], epoch, parameters, bounds, observed ? &flight : nullptr, uav);
+        // One that is seen later than the others is in flight, too, if they are.
+        const ObservedFlight* flight = takeover.findsFlight() ? &takeover.flight(i) : nullptr;
+        begin(snapshot.uavs[i], epoch, parameters, bounds, flight, uav);
       } else {
         uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
       }

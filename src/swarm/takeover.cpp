@@ -66,6 +66,7 @@ void resumeMission(double epoch, const Parameters& parameters, bool in_flight, U
 
 void ObservedFlight::add(const UavMeasurement& measurement) {
   if (count_ > 0 && measurement.stamp <= stamp()) return;
+  if (count_ > 0 && measurement.stamp > stamp() + kLongestGap) clear();
   if (count_ == samples_.size()) {
     std::rotate(samples_.begin(), samples_.begin() + 1, samples_.end());
     --count_;
@@ -138,14 +139,15 @@ void Takeover::reset(std::optional<std::size_t> obstacles) {
   finds_flight_ = false;
 }
 
-void Takeover::noteCycle(double now) {
+void Takeover::beginCycle(double now) {
   now_ = now;
-  if (!begin_) begin_ = now_;
+  if (!begin_) begin_ = now;
 }
 
-void Takeover::observe(std::size_t uav, const UavMeasurement& measured) {
-  flights_[uav].add(measured);
-  if (measured.v.norm() > kHovering || (measured.p - homes_[uav]).norm() > kAtHome) finds_flight_ = true;
+void Takeover::observe(std::size_t uav, const UavMeasurement& measurement) {
+  flights_[uav].add(measurement);
+  const bool away = (measurement.p - homes_[uav]).norm() > kAtHome;
+  if (measurement.v.norm() > kHovering || away) finds_flight_ = true;
 }
 
 bool Takeover::isReady(std::size_t tracks) const {

@@ -17,8 +17,10 @@ namespace swarm_planner {
 /// acceleration that odometry lacks. Takes no heap.
 class ObservedFlight {
  public:
+  static constexpr double kLongestGap = 1.0;  ///< [s]
+
   void clear() { count_ = 0; }
-  /// One that is not newer than the last is ignored.
+  /// One that is not newer than the last is ignored; after a gap of more than kLongestGap the older ones are forgotten.
   void add(const UavMeasurement& measurement);
   std::size_t count() const { return count_; }
   /// State and jerk at the newest measurement, from the parabola through the velocities (fewer than three: no
@@ -79,9 +81,10 @@ class Takeover {
 
   /// Forgets everything. `obstacles`: so many tracks were in use before; empty: not known.
   void reset(std::optional<std::size_t> obstacles = {});
-  /// Before the first plans: a cycle at `now` [s], and the measurements of it that can be planned from.
-  void noteCycle(double now);
-  void observe(std::size_t uav, const UavMeasurement& measured);
+  /// A cycle begins at `now` [s].
+  void beginCycle(double now);
+  /// A usable measurement of a UAV that has not been planned for yet.
+  void observe(std::size_t uav, const UavMeasurement& measurement);
 
   /// Some UAV is in flight of which no motion is known: it moves, or is not where it would start.
   bool findsFlight() const { return finds_flight_; }
