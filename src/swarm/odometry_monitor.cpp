@@ -86,14 +86,23 @@ bool OdometryMonitor::isFrozen(const UavMeasurement& measurement, const MotionMe
   const bool same = held_ && measurement.p == held_->p && measurement.stamp > held_->stamp;
   if (!same) {
     held_ = measurement;
-    held_expected_.reset();
+    forgetMotion();
   }
   if (expected && !held_expected_) held_expected_ = expected->p;
   if (!same) return false;
   const double least = kFrozenNoises * noiseOf(input);
-  const double since = measurement.stamp - held_->stamp;
-  if (measurement.v == held_->v && since * held_->v.norm() > least) return true;
-  return since > input.odometry_doubt_time && expected && (expected->p - *held_expected_).norm() > least;
+  if (measurement.v == held_->v && (measurement.stamp - held_->stamp) * held_->v.norm() > least) return true;
+  if (!expected || (expected->p - *held_expected_).norm() <= least) {
+    overdue_since_.reset();
+    return false;
+  }
+  if (!overdue_since_) overdue_since_ = measurement.stamp;
+  return measurement.stamp - *overdue_since_ >= input.odometry_doubt_time;
+}
+
+void OdometryMonitor::forgetMotion() {
+  held_expected_.reset();
+  overdue_since_.reset();
 }
 
 bool OdometryMonitor::noteDeviation(double deviation, double stamp, const InputParameters& input) {

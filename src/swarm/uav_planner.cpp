@@ -102,6 +102,7 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
     start = predictFromMeasurement(measurement, epoch);
     if (expected || motions.empty()) {
       motions.clear();
+      monitor.forgetMotion();
       CommittedMotion rest;
       rest.assignRest(measurement.stamp, measurement.p);
       motions.commit(rest);
@@ -125,6 +126,7 @@ void UavRecord::startAnew(const UavMeasurement& measurement, double epoch, const
   CommittedMotion braking;
   braking.assignStop(epoch, stop);
   motions.startAnew(braking);
+  monitor.forgetMotion();
   planned = true;
   deviation.setZero();
 }

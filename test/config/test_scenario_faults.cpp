@@ -101,7 +101,7 @@ const FaultCase kEnd[] = {
 INSTANTIATE_TEST_SUITE_P(End, ScenarioFault, testing::ValuesIn(kEnd), caseName);
 
 const FaultCase kUav[] = {
-    {"UnknownKey", "start: [0.0, 150.0, 20.0]", "start: [0.0, 150.0, 20.0]\n    external: true", "uavs[1].external",
+    {"UnknownKey", "start: [0.0, 150.0, 20.0]", "start: [0.0, 150.0, 20.0]\n    payload: 2", "uavs[1].payload",
      "unknown key"},
     {"MissingName", "- name: uav1\n    start", "- start", "uavs[0].name", "missing, expected text (line 5)"},
     {"DuplicateName", "name: uav2", "name: uav1", "uavs[1].name",

@@ -63,6 +63,17 @@ TEST(Odometry, ThatKeepsJumpingIsTold) {
   expectTold([&side](Snapshot& snapshot) { snapshot.uavs[1].p.y() += (side = -side); }, Reason::kOdometryJumps, 0);
 }
 
+// Carried elsewhere while it hovered without noise, and told to stay there: that is no frozen odometry.
+TEST(Odometry, OfAUavThatWasCarriedElsewhereAndStaysIsUsed) {
+  PerfectFlight flight(hoveringPair(20.0));
+  flight.cycles(10);
+  const Vector3 place(0, 0.8, 10);
+  flight.planner().setReference(0, {place}, 0.0, 0.0);
+  flight.cycle([&](Snapshot& snapshot) { snapshot.uavs[0].p = place; });
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(flight.cycle().uavs[0].state, UavState::kTracking) << i;
+  EXPECT_LT((flight.vehicle(0).p - place).norm(), 0.01);
+}
+
 // ---- What the others do
 
 /// UAV 0 is seen no more and drifts towards UAV 1 at 0.25 m/s, up to 1.8 m. Returns the least pair gauge of the two.

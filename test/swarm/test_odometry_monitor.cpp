@@ -36,7 +36,7 @@ class Monitor : public ::testing::Test {
   }
   void commitRest(const Vector3& p) {
     CommittedMotion motion;
-    motion.assignRest(kBegin, p);
+    motion.assignRest(kBegin - 100.0, p);
     motions_.commit(motion);
   }
 
@@ -90,14 +90,14 @@ TEST_F(Monitor, LetsPositionsPassThatDifferInTheLastBit) {
 // Frozen while it hovered: the velocity says nothing, the motion does. For a moment the UAV may only be late.
 TEST_F(Monitor, NoticesByTheMotionThatAHoveringUavsPositionIsFrozen) {
   commit(kPlace, kFast);
-  for (const double t : {0.0, 0.3, 0.6, 0.9}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kNone) << t;
-  for (const double t : {1.2, 1.5, 30.0}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kOdometryFrozen) << t;
+  for (const double t : {0.0, 0.3, 0.6, 0.9, 1.2}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kNone) << t;
+  for (const double t : {1.5, 1.8, 30.0}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kOdometryFrozen) << t;
 }
 
 TEST_F(Monitor, NoticesAFrozenPositionBesideALiveVelocity) {
   commit(kPlace, kFast);
-  for (int i = 0; i < 4; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kNone);
-  EXPECT_EQ(judge(1.2, kPlace, kFast), Reason::kOdometryFrozen);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kNone);
+  EXPECT_EQ(judge(1.5, kPlace, kFast), Reason::kOdometryFrozen);
 }
 
 TEST_F(Monitor, LetsAUavRestWithoutNoiseForEver) {
@@ -109,6 +109,32 @@ TEST_F(Monitor, LetsAUavRestThatHasNoMotionYet) {
   for (int i = 0; i < 100; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
   commit(kPlace, Vector3(0.02, 0, 0));  // 12 cm in six seconds: no more than noise
   for (int i = 100; i < 200; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
+}
+
+// Its setpoints may come late even after a long rest.
+TEST_F(Monitor, LetsAUavThatHasRestedSetOffLate) {
+  commitRest(kPlace);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(judge(kCycle * i - 30.0, kPlace, Vector3::Zero()), Reason::kNone) << i;
+  commit(kPlace, kFast);
+  for (const double t : {0.0, 0.3, 0.6, 0.9}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kNone) << t;
+  EXPECT_EQ(judge(1.2, kPlace + Vector3(0.1, 0, 0), Vector3(1, 0, 0)), Reason::kNone);
+}
+
+// It was carried elsewhere and is to rest there now.
+TEST_F(Monitor, DoesNotHoldAnOldMotionAgainstAUav) {
+  const Vector3 elsewhere = kPlace + Vector3(1, 0, 0);
+  for (const bool is_told : {true, false}) {
+    monitor_ = OdometryMonitor();
+    motions_.clear();
+    commitRest(kPlace);
+    EXPECT_EQ(judge(0.0, kPlace, Vector3::Zero()), Reason::kNone);
+    EXPECT_EQ(judge(0.3, elsewhere, Vector3::Zero()), Reason::kNone);
+    motions_.clear();
+    commitRest(elsewhere);
+    if (is_told) monitor_.forgetMotion();
+    for (int i = 2; i < 6; ++i) judge(kCycle * i, elsewhere, Vector3::Zero());
+    EXPECT_EQ(judge(1.8, elsewhere, Vector3::Zero()), is_told ? Reason::kNone : Reason::kOdometryFrozen);
+  }
 }
 
 // ---- Jumps

@@ -14,8 +14,8 @@ namespace swarm_planner {
 /// at least, and T = odometry_doubt_time:
 ///
 ///  - frozen: the position stays the same to the last bit while stamps go on, though the velocity in the same message,
-///    unchanged too, has carried the UAV by more than 2 n; or for more than T though its motion has moved by more than
-///    2 n. Whoever is to rest may rest, without noise for ever. Ends with the first new position.
+///    unchanged too, has carried the UAV by more than 2 n; or for T after its motion has moved by more than 2 n.
+///    Whoever is to rest may rest, without noise for ever. Ends with the first new position.
 ///  - jumps: no flight leads from the last measurement that was believed (p0, v0) to this one (p1, v1), dt later. One
 ///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
@@ -34,6 +34,9 @@ class OdometryMonitor {
   /// the UAV has been off its plan for long enough; counting begins anew then.
   bool noteDeviation(double deviation, double stamp, const InputParameters& input);
 
+  /// The UAV's motion has been replaced by another one: what it was to fly before is no measure of what it does.
+  void forgetMotion();
+
   /// The last measurement that could be planned from; empty if there has been none.
   const std::optional<UavMeasurement>& trusted() const { return trusted_; }
 
@@ -45,6 +48,7 @@ class OdometryMonitor {
   std::optional<UavMeasurement> newest_;   ///< compared last
   Reason verdict_ = Reason::kNone;         ///< on it
   std::optional<UavMeasurement> held_;     ///< the first with the position that the newest has
+  std::optional<double> overdue_since_;    ///< when the motion had moved far enough from there [s]
   std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
