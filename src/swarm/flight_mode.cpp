@@ -23,14 +23,21 @@ using Row = std::array<FlightTransition, kFlightEvents.size()>;
 /// Rows are modes, columns events, both in the order of their declaration.
 constexpr std::array<Row, kFlightModes.size()> kTable{{
     // clang-format off
-    // start       hold        land        stop        join: waiting, holding, flying           leave    run starts  touchdown
-    {{done(F),     done(H),    done(D),    done(S),    already(W), already(W), already(W),      done(A),    done(F),    ignored(W)}},
-    {{already(F),  done(H),    done(D),    done(S),    already(F), already(F), already(F),      done(A),    ignored(F), ignored(F)}},
-    {{done(F),     already(H), done(D),    done(S),    already(H), already(H), already(H),      done(A),    ignored(H), ignored(H)}},
-    {{done(F),     done(H),    already(D), done(S),    already(D), already(D), already(D),      done(A),    ignored(D), done(G)}},
-    {{done(F),     stays(G),   already(G), stays(G),   already(G), already(G), already(G),      done(A),    ignored(G), ignored(G)}},
-    {{done(F),     stays(S),   done(D),    already(S), already(S), already(S), already(S),      done(A),    ignored(S), ignored(S)}},
-    {{refused(A),  refused(A), refused(A), refused(A), done(W),    done(H),    done(F),         already(A), ignored(A), ignored(A)}},
+    // start, hold, land, stop; join (waiting, holding, flying), leave, run starts, touchdown
+    {{done(F),    done(H),    done(D),    done(S),
+      already(W), already(W), already(W), done(A), done(F), ignored(W)}},
+    {{already(F), done(H),    done(D),    done(S),
+      already(F), already(F), already(F), done(A), ignored(F), ignored(F)}},
+    {{done(F),    already(H), done(D),    done(S),
+      already(H), already(H), already(H), done(A), ignored(H), ignored(H)}},
+    {{done(F),    done(H),    already(D), done(S),
+      already(D), already(D), already(D), done(A), ignored(D), done(G)}},
+    {{done(F),    stays(G),   already(G), stays(G),
+      already(G), already(G), already(G), done(A), ignored(G), ignored(G)}},
+    {{done(F),    stays(S),   done(D),    already(S),
+      already(S), already(S), already(S), done(A), ignored(S), ignored(S)}},
+    {{refused(A), refused(A), refused(A), refused(A),
+      done(W), done(H), done(F), already(A), ignored(A), ignored(A)}},
     // clang-format on
 }};
 

@@ -215,6 +215,20 @@ TEST(Commands, WaitForTheStartOfTheRun) {
   EXPECT_GT(flight.vehicle(1).v.norm(), 1.0);
 }
 
+// Broken off near the ground a landing leaves the UAV below the workspace: it holds there all the same.
+TEST(Hold, BelowTheWorkspaceIsNoFault) {
+  Mission mission = makeTestMission({Vector3(0, 0, 5)}, {Vector3(0, 0, 5)}, 0.0);
+  mission.scenario.workspace = Workspace{Vector3(-10, -10, 2), Vector3(10, 10, 20)};
+  PerfectFlight flight(mission);
+  flight.planner().command(0, FlightCommand::kLand);
+  while (flight.vehicle(0).p.z() > 1.2 && flight.now() < 30.0) flight.cycle();
+  flight.planner().command(0, FlightCommand::kHold);
+  flight.cycles(30);
+  EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kHeld);
+  EXPECT_NEAR(flight.vehicle(0).p.z(), 0.6, 0.6);
+  EXPECT_LT(flight.vehicle(0).v.norm(), 0.05);
+}
+
 // Odometry of one UAV never comes: without it nobody would ever start.
 TEST(Commands, AUavThatIsNotThereCanLeave) {
   PerfectFlight flight(twoAbreast());
@@ -254,6 +268,20 @@ TEST(Commands, ANewReferenceIsKeptUntilTheUavFlies) {
   flight.planner().command(0, FlightCommand::kStart);
   flight.cycles(20);
   EXPECT_GT(flight.vehicle(0).p.y(), place.y() + 10.0);
+}
+
+// Where the UAV would have come to rest without the stop nobody will be: another one may go there.
+TEST(Stop, KeepsNobodyOffWhereTheUavWasToGo) {
+  PerfectFlight flight(
+      makeTestMission({Vector3(0, 0, 10), Vector3(40, 12, 10)}, {Vector3(400, 0, 10), Vector3(40, 12, 10)}, 4.0));
+  flight.cycles(20);
+  const Vector3 free_place = flight.planner().committed(0).restingPlace();
+  flight.planner().command(0, FlightCommand::kStop);
+  flight.planner().setReference(1, {Vector3(40, 12, 10), free_place}, 0.0, 4.0);
+  flight.cycles(60);
+  ASSERT_GT((flight.vehicle(0).p - free_place).norm(), 4.0) << "it is taken: this shows nothing";
+  EXPECT_LT((flight.vehicle(1).p - free_place).norm(), 0.3);
+  EXPECT_EQ(flight.planner().report().uavs[1].state, UavState::kTracking);
 }
 
 // What did not reach the vehicle is sent again, from where the vehicle is.
