@@ -21,7 +21,9 @@ struct AxisPoint {
 
 AxisPoint solveAxis(double x, double r, double p, double lambda) {
   AxisPoint axis;
-  if (x == 0.0) return axis;
+  // Below that quotients by x overflow; it is as good as none.
+  constexpr double kNoOffset = 1e-200;
+  if (x < kNoOffset) return axis;
   double straight;  // r zeta / x, the other term being 1 minus it
   double curved;
   if (p == 2.0) {

@@ -169,6 +169,19 @@ TEST(SignedDistance, SurvivesExtremes) {
   }
 }
 
+// A yaw of rounding alone turns an offset along one axis into one of 1e-312 m along another.
+TEST(SignedDistance, OffsetsThatUnderflowCountAsNone) {
+  for (const double yaw : {1e-323, 1.2e-313, 1e-300, 1e-250}) {
+    const Superellipsoid body(1, Vector3(11, 2, 0.5), Vector3(1, 2, 2), Vector3(2, 3.5, 8), yaw, Vector3::Zero());
+    const Superellipsoid straight(1, body.center(), body.radii(), body.exponents(), 0.0, Vector3::Zero());
+    const Vector3 point(1.0, 2.0, 3.0);
+    Vector3 normal;
+    EXPECT_NEAR(body.signedDistance(point, normal), straight.signedDistance(point), 1e-9) << yaw;
+    EXPECT_NEAR(normal.norm(), 1.0, 1e-12) << yaw;
+    EXPECT_TRUE(body.gauge(point - body.center()).gradient.allFinite()) << yaw;
+  }
+}
+
 TEST(SignedDistance, LowerBoundIsExactInFrontOfAFace) {
   const Superellipsoid body(1, Vector3(1, 1, 1), Vector3(1, 2, 3), Vector3(4, 4, 4), 0.0, Vector3::Zero());
   EXPECT_NEAR(body.distanceLowerBound(Vector3(5, 1, 1)), 3.0, 1e-12);
