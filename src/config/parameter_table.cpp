@@ -240,8 +240,11 @@ void addInput(TableBuilder& table) {
   table.number(
       "odometry_doubt_time", "s", Range::aboveUpTo(0.0, 60.0),
       [](P& p) -> double& { return p.input.odometry_doubt_time; },
-      "a jump of odometry is believed after this time; a position that stays the same, and a UAV off its plan, are "
-      "suffered for so long");
+      "a position that stays the same, and a UAV off its plan, are suffered for so long");
+  table.number(
+      "relocalisation_time", "s", Range::aboveUpTo(0.0, 3600.0),
+      [](P& p) -> double& { return p.input.relocalisation_time; },
+      "odometry that has jumped or drifted, and fits itself ever since, is believed after this time");
   table.number(
       "off_plan_distance", "m", Range::above(0.0), [](P& p) -> double& { return p.input.off_plan_distance; },
       "a UAV farther than this from its plan for odometry_doubt_time is planned for anew from where it is");

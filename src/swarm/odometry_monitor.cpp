@@ -11,9 +11,11 @@ namespace {
 
 constexpr double kLeastNoise = 0.05;   // rounding must not look like a motion, nor every step like a jump [m]
 constexpr double kFrozenNoises = 2.0;  // odometry_noise that the UAV should have moved by
-constexpr double kMotionNoises = 2.0;  // odometry_noise that a UAV on its motion may be off it
+constexpr double kMotionNoises = 3.0;  // odometry_noise that a UAV may be off where it is to be again after a fault
 constexpr double kJumpNoises = 7.0;    // odometry_noise that two measurements may differ by
 constexpr double kSpeedSlack = 1.2;    // gusts carry a UAV faster than it is allowed to plan
+constexpr double kLongestStep = 0.5;   // between two measurements, for their mean velocity to tell the way [s]
+constexpr double kDriftMemory = 5.0;   // time constant in which a difference of way and velocity is forgotten [s]
 
 double noiseOf(const InputParameters& input) { return std::max(input.odometry_noise, kLeastNoise); }
 
@@ -27,12 +29,6 @@ bool isReachable(const UavMeasurement& from, const UavMeasurement& to, const Par
   const double acceleration = parameters.limits.max_thrust_ratio * parameters.vehicle.gravity;
   return way.norm() <= speed * dt + noise &&
          (way - 0.5 * dt * (from.v + to.v)).norm() <= 0.25 * dt * dt * acceleration + noise;
-}
-
-/// Whether it is where it is to be, but for noise.
-bool isOnMotion(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input) {
-  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
-  return expected && (measurement.p - expected->p).norm() <= kMotionNoises * noiseOf(input);
 }
 
 }  // namespace
@@ -60,35 +56,65 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
     return Reason::kOdometryFrozen;
   }
-  // Among doubted ones the last that was believed soon explains everything; to be where the motion has the UAV is
-  // better.
-  const double doubt_time = parameters.input.odometry_doubt_time;
-  const bool is_comparable = trusted_ && (!doubted_ || measurement.stamp - trusted_->stamp <= doubt_time);
-  if (!trusted_ || (is_comparable && isReachable(*trusted_, measurement, parameters)) ||
-      (doubted_ && isOnMotion(measurement, motions, parameters.input))) {
-    trusted_ = measurement;
-    doubted_.reset();
+  const bool fits =
+      !trusted_ || (doubted_ ? isBack(measurement, motions, parameters.input) : follows(measurement, parameters));
+  if (fits) {
+    trust(measurement, motions);
     return Reason::kNone;
   }
-  const Reason fault = measurement.stamp < trusted_->stamp ? Reason::kOdometryBackwards : Reason::kOdometryJumps;
   if (!doubted_ || !isReachable(*doubted_, measurement, parameters)) doubted_since_ = measurement.stamp;
   doubted_ = measurement;
-  if (measurement.stamp - doubted_since_ < doubt_time) return fault;
-  trusted_ = measurement;
-  doubted_.reset();
+  if (measurement.stamp - doubted_since_ < parameters.input.relocalisation_time) return fault_;
+  trust(measurement, motions);
   return Reason::kNone;
+}
+
+bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameters& parameters) {
+  const double dt = measurement.stamp - trusted_->stamp;
+  fault_ = dt < 0.0 ? Reason::kOdometryBackwards : Reason::kOdometryJumps;
+  if (!isReachable(*trusted_, measurement, parameters)) return false;
+  // A source that always says zero does not know the velocity.
+  const bool is_known = !trusted_->v.isZero(0.0) || !measurement.v.isZero(0.0);
+  if (dt > kLongestStep || !is_known) {
+    drift_.setZero();
+    return true;
+  }
+  drift_ *= std::exp(-dt / kDriftMemory);
+  drift_ += measurement.p - trusted_->p - 0.5 * dt * (trusted_->v + measurement.v);
+  fault_ = Reason::kOdometryDrifts;
+  return drift_.norm() <= kJumpNoises * noiseOf(parameters.input);
+}
+
+bool OdometryMonitor::isBack(const UavMeasurement& measurement, const MotionMemory& motions,
+                             const InputParameters& input) const {
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  if (!expected || measurement.stamp <= trusted_->stamp) return false;
+  const Vector3 off = measurement.p - expected->p;
+  // Tracking may have brought it nearer to its motion meanwhile.
+  const double share = trusted_off_.isZero(0.0) ? 0.0 : off.dot(trusted_off_) / trusted_off_.squaredNorm();
+  return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(input);
+}
+
+void OdometryMonitor::trust(const UavMeasurement& measurement, const MotionMemory& motions) {
+  if (doubted_ || !trusted_) drift_.setZero();
+  doubted_.reset();
+  trusted_ = measurement;
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  trusted_off_ = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());
 }
 
 bool OdometryMonitor::isFrozen(const UavMeasurement& measurement, const MotionMemory& motions,
                                const InputParameters& input) {
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   const bool same = held_ && measurement.p == held_->p && measurement.stamp > held_->stamp;
+  if (!first_) first_ = measurement.p;
+  has_moved_ = has_moved_ || (measurement.p - *first_).norm() > kJumpNoises * noiseOf(input);
   if (!same) {
     held_ = measurement;
     forgetMotion();
   }
   if (expected && !held_expected_) held_expected_ = expected->p;
-  if (!same) return false;
+  if (!same || !has_moved_) return false;
   const double least = kFrozenNoises * noiseOf(input);
   if (measurement.v == held_->v && (measurement.stamp - held_->stamp) * held_->v.norm() > least) return true;
   if (!expected || (expected->p - *held_expected_).norm() <= least) {

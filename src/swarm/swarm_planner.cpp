@@ -221,7 +221,7 @@ class SwarmPlanner::Impl {
     }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if (uavs[i].unseen && !uavs[i].motions.empty()) {
+      if ((uavs[i].unseen || uavs[i].last_place) && !uavs[i].motions.empty()) {
         surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
       }
     }

@@ -7,7 +7,7 @@
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/stopping.hpp"
-#include "swarm_planner/swarm/uav_planner.hpp"
+#include "swarm_planner/swarm/uav_record.hpp"
 
 namespace swarm_planner {
 namespace {

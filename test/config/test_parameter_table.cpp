@@ -61,6 +61,7 @@ const Place kPlaces[] = {
     {"track_growth_time", 2.2, [](const Parameters& p) -> ParameterValue { return p.input.track_growth_time; }},
     {"tracking_time", 0.65, [](const Parameters& p) -> ParameterValue { return p.input.tracking_time; }},
     {"odometry_noise", 0.16, [](const Parameters& p) -> ParameterValue { return p.input.odometry_noise; }},
+    {"relocalisation_time", 7.0, [](const Parameters& p) -> ParameterValue { return p.input.relocalisation_time; }},
     {"odometry_doubt_time", 1.1, [](const Parameters& p) -> ParameterValue { return p.input.odometry_doubt_time; }},
     {"off_plan_distance", 1.2, [](const Parameters& p) -> ParameterValue { return p.input.off_plan_distance; }},
     {"lost_growth_rate", 0.4, [](const Parameters& p) -> ParameterValue { return p.input.lost_growth_rate; }},

@@ -12,9 +12,9 @@
 namespace swarm_planner {
 namespace {
 
-constexpr Reason kFaults[] = {Reason::kOdometryStale,  Reason::kOdometryFromFuture, Reason::kOdometryNotFinite,
-                              Reason::kOdometryFrozen, Reason::kOdometryJumps,      Reason::kOdometryBackwards,
-                              Reason::kOffPlan};
+constexpr Reason kFaults[] = {
+    Reason::kOdometryStale, Reason::kOdometryFromFuture, Reason::kOdometryNotFinite, Reason::kOdometryFrozen,
+    Reason::kOdometryJumps, Reason::kOdometryBackwards,  Reason::kOdometryDrifts,    Reason::kOffPlan};
 
 void expectNoFault(const Scenario& scenario, const ParameterMap& given, std::uint64_t seed) {
   const Mission mission = makeMission(scenario, given, scenario.name);

@@ -5,7 +5,7 @@
 
 #include "perfect_flight.hpp"
 #include "swarm_planner/swarm/takeover.hpp"
-#include "swarm_planner/swarm/uav_planner.hpp"
+#include "swarm_planner/swarm/uav_record.hpp"
 
 namespace swarm_planner {
 namespace {

@@ -96,21 +96,22 @@ constexpr double kClockTolerance = 0.05;
 
 /// Inputs of the planner and how long they are believed.
 struct InputParameters {
-  double odometry_timeout = 0.5;     ///< older odometry is not used [s]
-  double track_timeout = 1.0;        ///< an obstacle track is predicted for at most so long [s]
-  int max_tracks = 1000;             ///< of more obstacle tracks those nearest to the UAVs are used
-  double track_sigmas = 3.0;         ///< how many standard deviations of a track are kept clear of
-  double track_growth_time = 2.0;    ///< the velocity of a track is in doubt for at most so long after its stamp [s]
-  double tracking_time = 0.5;        ///< time constant with which a vehicle's tracking deviation decays [s]
-  double odometry_noise = 0.15;      ///< deviations up to this may be noise alone [m]
-  double odometry_doubt_time = 1.0;  ///< how long a jump, a standstill or a deviation is doubted [s]
-  double off_plan_distance = 1.0;    ///< a UAV so far from its motion for odometry_doubt_time is planned for anew [m]
-  double lost_growth_rate = 0.3;     ///< by which others keep farther from a UAV that is not seen [m/s]
-  double lost_growth_limit = 2.0;    ///< up to this [m]; unset: pair_distance
-  int lost_setpoints = 1;            ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
-  int setpoint_repeats = 0;          ///< each trajectory is sent so many times more, spread over its cycle; unset: by
-                                     ///< rule
-  bool autostart = true;             ///< start as soon as every UAV's odometry has arrived
+  double odometry_timeout = 0.5;      ///< older odometry is not used [s]
+  double track_timeout = 1.0;         ///< an obstacle track is predicted for at most so long [s]
+  int max_tracks = 1000;              ///< of more obstacle tracks those nearest to the UAVs are used
+  double track_sigmas = 3.0;          ///< how many standard deviations of a track are kept clear of
+  double track_growth_time = 2.0;     ///< the velocity of a track is in doubt for at most so long after its stamp [s]
+  double tracking_time = 0.5;         ///< time constant with which a vehicle's tracking deviation decays [s]
+  double odometry_noise = 0.15;       ///< deviations up to this may be noise alone [m]
+  double odometry_doubt_time = 1.0;   ///< how long a standstill or a deviation is put up with [s]
+  double relocalisation_time = 10.0;  ///< after a jump, or a drift, other odometry is believed after this time [s]
+  double off_plan_distance = 1.0;     ///< a UAV so far from its motion for odometry_doubt_time is planned for anew [m]
+  double lost_growth_rate = 0.3;      ///< by which others keep farther from a UAV that is not seen [m/s]
+  double lost_growth_limit = 2.0;     ///< up to this [m]; unset: pair_distance
+  int lost_setpoints = 1;             ///< so many trajectories in a row may fail to reach a vehicle: 0 or 1
+  int setpoint_repeats = 0;           ///< each trajectory is sent so many times more, spread over its cycle; unset: by
+                                      ///< rule
+  bool autostart = true;              ///< start as soon as every UAV's odometry has arrived
 };
 
 /// The simulated quadrotor's controller, sensors and rates, the wind, and the links between vehicles and ground

@@ -7,7 +7,7 @@
 #include "swarm_planner/swarm/flight_commands.hpp"
 #include "swarm_planner/swarm/landing_sites.hpp"
 #include "swarm_planner/swarm/mission.hpp"
-#include "swarm_planner/swarm/uav_planner.hpp"
+#include "swarm_planner/swarm/uav_record.hpp"
 
 namespace swarm_planner {
 

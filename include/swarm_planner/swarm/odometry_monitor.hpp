@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/swarm/cycle_report.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
-#include "swarm_planner/swarm/swarm_planner.hpp"
+#include "swarm_planner/swarm/snapshot.hpp"
 
 namespace swarm_planner {
 
@@ -15,14 +16,19 @@ namespace swarm_planner {
 ///
 ///  - frozen: the position stays the same to the last bit while stamps go on, though the velocity in the same message,
 ///    unchanged too, has carried the UAV by more than 2 n; or for T after its motion has moved by more than 2 n.
-///    Whoever is to rest may rest, without noise for ever. Ends with the first new position.
+///    Whoever is to rest may rest, without noise for ever, and so may who has not yet left the ground. Ends with the
+///    first new position.
 ///  - jumps: no flight leads from the last measurement that was believed (p0, v0) to this one (p1, v1), dt later. One
 ///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
-///    each axis does not reach 7 n. After a jump a measurement is believed that a flight from p0 leads to within T, or
-///    that lies within 2 n of the motion; and any, once measurements have fitted each other for T: an estimator that
-///    has found its place anew.
+///    each axis does not reach 7 n.
 ///  - stamps go back: the same, told by its own reason.
+///  - drifts: p1 - p0 - dt (v0 + v1) / 2, summed up over the measurements of some 5 s, exceeds 7 n: the position does
+///  not
+///    follow the velocity. A UAV that is pushed or blown off has both.
+///    After any of these three a measurement is believed that lies within 3 n of where the motion, or the motion with
+///    the deviation that was there before, has the UAV; and any, once measurements have fitted each other for
+///    relocalisation_time: an estimator that has found its place anew.
 ///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
 class OdometryMonitor {
  public:
@@ -42,9 +48,18 @@ class OdometryMonitor {
 
  private:
   Reason compare(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);
+  /// Whether it follows from the last trusted one; otherwise fault_ says why not.
+  bool follows(const UavMeasurement& measurement, const Parameters& parameters);
+  /// Whether a doubted UAV is again where it is to be.
+  bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input) const;
+  void trust(const UavMeasurement& measurement, const MotionMemory& motions);
   bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
 
   std::optional<UavMeasurement> trusted_;
+  Vector3 trusted_off_ = Vector3::Zero();  ///< its deviation from the motion [m]
+  Vector3 drift_ = Vector3::Zero();        ///< of positions against velocities up to it [m]
+  std::optional<Vector3> first_;           ///< position of the first measurement [m]
+  bool has_moved_ = false;                 ///< away from there
   std::optional<UavMeasurement> newest_;   ///< compared last
   Reason verdict_ = Reason::kNone;         ///< on it
   std::optional<UavMeasurement> held_;     ///< the first with the position that the newest has
@@ -52,6 +67,7 @@ class OdometryMonitor {
   std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
+  Reason fault_ = Reason::kNone;           ///< why they are doubted
   std::optional<double> off_plan_since_;   ///< [s]
 };
 

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/swarm/cycle_report.hpp"
 #include "swarm_planner/swarm/flight_memory.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
-#include "swarm_planner/swarm/swarm_planner.hpp"
+#include "swarm_planner/swarm/snapshot.hpp"
 
 namespace swarm_planner {
 

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/cycle_report.hpp"
+
 #include <algorithm>
 #include <string>
-
-#include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
 
@@ -59,6 +59,8 @@ const char* reasonText(Reason reason) {
       return "odometry jumps: no flight leads from one position to the next";
     case Reason::kOdometryBackwards:
       return "the stamps of odometry go back";
+    case Reason::kOdometryDrifts:
+      return "odometry drifts: its position does not follow its velocity";
     case Reason::kOffPlan:
       return "far off its plan; planned anew from where it is";
     case Reason::kForeign:

@@ -1,0 +1,139 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/uav_record.hpp"
+
+#include <algorithm>
+
+#include "swarm_planner/swarm/flight_envelope.hpp"
+#include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/stopping.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kBoundSlack = 0.1;     // of a bound, by which a measured start may exceed it
+constexpr double kMoved = 0.5;          // a UAV at rest that is so far from its place has been moved [m]
+constexpr double kDeviationGain = 0.2;  // of a new measurement in the mean deviation
+constexpr double kLostMargins = 2.0;    // tracking margins by which a lost setpoint shows
+
+/// A UAV measured farther from its motion than this is not on it [m]: neither tracking nor noise explains that.
+double leastDistanceOff(const Parameters& parameters) {
+  return 2.0 * std::max(parameters.limits.tracking_margin, parameters.input.odometry_noise);
+}
+
+}  // namespace
+
+void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length, double speed) {
+  reference = MovingTarget();
+  reference.path = ReferencePath(path);
+  reference.start = arc_length;
+  given_start = arc_length;
+  reference.speed = speed;
+  beginning.on_reference = false;
+  reference_pending = true;
+  on_reference = false;
+}
+
+void UavRecord::reset() {
+  motions.clear();
+  planned = false;
+  deviation.setZero();
+  task.enter(task.mode);
+  beginning.reset();
+  reference.start = given_start;
+  reference_pending = true;
+  on_reference = false;
+  active.count = 0;
+  monitor = OdometryMonitor();
+  unseen = false;
+  last_place.reset();
+}
+
+void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                             const FlightBounds& bounds) {
+  motions.compare(measurement.stamp, measurement.p, kLostMargins * parameters.limits.tracking_margin);
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  const Vector3 measured = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());
+  deviation += kDeviationGain * (measured - deviation);
+  const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
+  const bool is_back = unseen;
+  unseen = false;
+  last_place.reset();
+  off_plan = monitor.noteDeviation(measured.norm(), measurement.stamp, parameters.input);
+  const bool moved = rests && measured.norm() > kMoved;
+  const bool is_elsewhere = is_back && (motions.empty() || measured.norm() > leastDistanceOff(parameters));
+  if (!moved && (off_plan || is_elsewhere)) {
+    off_plan_distance = measured.norm();
+    startAnew(measurement, epoch, parameters, bounds);
+    return;
+  }
+  if (!expected || moved) {
+    start = predictFromMeasurement(measurement, epoch);
+    if (expected || motions.empty()) {
+      motions.clear();
+      monitor.forgetMotion();
+      CommittedMotion rest;
+      rest.assignRest(measurement.stamp, measurement.p);
+      motions.commit(rest);
+      planned = false;
+    }
+    return;
+  }
+  if (!parameters.limits.latency_compensation) {
+    // Odometry has no acceleration: without that of the motion it would begin at zero in every cycle.
+    start = {measurement.p, measurement.v, motions.flown().at(epoch).a};
+    return;
+  }
+  if (measured.norm() > leastDistanceOff(parameters)) last_place = measurement.p;
+  start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
+}
+
+void UavRecord::startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+                          const FlightBounds& bounds) {
+  start = predictFromMeasurement(measurement, epoch);
+  StopManoeuvre stop;
+  planStop(start, parameters.time.sampling_time, relieveBounds(bounds, start, kBoundSlack), stop);
+  CommittedMotion braking;
+  braking.assignStop(epoch, stop);
+  motions.startAnew(braking);
+  monitor.forgetMotion();
+  planned = true;
+  deviation.setZero();
+}
+
+void UavRecord::setForeign(bool is_foreign) {
+  if (foreign == is_foreign) return;
+  foreign = is_foreign;
+  unseen = !foreign;  // where it comes from is not what it was to fly
+  last_place.reset();
+  on_reference = false;
+}
+
+bool UavRecord::isOnMotion(const UavMeasurement& measurement, const Parameters& parameters) const {
+  const CommittedMotion& flown = motions.flown();
+  if (measurement.stamp > flown.epoch() + flown.duration()) return false;
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  return !expected || (measurement.p - expected->p).norm() <= leastDistanceOff(parameters);
+}
+
+void UavRecord::forgetMotions() {
+  motions.clear();
+  planned = false;
+  deviation.setZero();
+}
+
+void UavRecord::loseSight(const Parameters& parameters) {
+  if (unseen) return;
+  unseen = true;
+  last_place.reset();
+  const std::optional<UavMeasurement>& seen = monitor.trusted();
+  const std::optional<KinematicState> expected =
+      seen ? motions.expectedAt(seen->stamp) : std::optional<KinematicState>();
+  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) last_place = seen->p;
+}
+
+MotionDoubt UavRecord::doubt(const InputParameters& input) const {
+  if (!monitor.trusted()) return {};
+  return {monitor.trusted()->stamp, input.lost_growth_rate, input.lost_growth_limit};
+}
+
+}  // namespace swarm_planner
