@@ -91,7 +91,9 @@ class SwarmPlanner::Impl {
   void takeOver(const FlightMemory& memory) {
     report.started = true;
     report.time_zero = memory.time_zero;
-    takeover.reset(memory.obstacles);
+    double last_epoch = 0.0;
+    for (const UavMemory& uav : memory.uavs) last_epoch = std::max(last_epoch, uav.epoch);
+    takeover.reset(memory.obstacles, last_epoch);
     const std::size_t count = std::min(uavs.size(), memory.uavs.size());
     for (std::size_t i = 0; i < count; ++i) swarm_planner::takeOver(memory.uavs[i], uavs[i]);
     beginRun();

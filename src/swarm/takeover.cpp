@@ -13,7 +13,8 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kBoundSlack = 0.1;  // of a bound, by which an observed state may exceed it
-constexpr double kMoved = 0.5;       // a UAV so far from a motion does not fly it [m]
+constexpr double kDistinct = 0.1;  // after their epoch, new plans differ from those before enough to be told apart [s]
+constexpr double kMoved = 0.5;     // a UAV so far from a motion does not fly it [m]
 constexpr double kMovedSpeed = 1.5;  // nor one whose velocity differs so much [m/s]
 constexpr double kFootWindow = 5.0;  // of arc length to look for the foot in, beyond what can have been flown [m]
 
@@ -132,7 +133,8 @@ void begin(const UavMeasurement& measurement, double epoch, const Parameters& pa
   resumeMission(epoch, parameters, observed != nullptr, record);
 }
 
-void Takeover::reset(std::optional<std::size_t> obstacles) {
+void Takeover::reset(std::optional<std::size_t> obstacles, double epoch) {
+  last_epoch_ = epoch;
   for (ObservedFlight& flight : flights_) flight.clear();
   obstacles_ = obstacles;
   begin_.reset();
@@ -151,7 +153,7 @@ void Takeover::observe(std::size_t uav, const UavMeasurement& measurement) {
 }
 
 bool Takeover::isReady(std::size_t tracks) const {
-  const bool knows_all = obstacles_ && tracks >= *obstacles_;
+  const bool knows_all = obstacles_ && tracks >= *obstacles_ && now_ > last_epoch_ + kDistinct;
   return knows_all || (begin_ && now_ - *begin_ >= kPatience);
 }
 

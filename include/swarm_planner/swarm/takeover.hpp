@@ -81,7 +81,8 @@ class Takeover {
   explicit Takeover(const std::vector<Vector3>& homes) : homes_(homes), flights_(homes.size()) {}
 
   /// Forgets everything. `obstacles`: so many tracks were in use before; empty: not known.
-  void reset(std::optional<std::size_t> obstacles = {});
+  /// `epoch`: of the last plans before [s]; only later measurements tell whether a vehicle flies them.
+  void reset(std::optional<std::size_t> obstacles = {}, double epoch = 0.0);
   /// A cycle begins at `now` [s].
   void beginCycle(double now);
   /// A usable measurement of a UAV that has not been planned for yet.
@@ -98,6 +99,7 @@ class Takeover {
   const std::vector<Vector3> homes_;
   std::vector<ObservedFlight> flights_;
   std::optional<std::size_t> obstacles_;
+  double last_epoch_ = 0.0;      ///< of the planner before [s]
   std::optional<double> begin_;  ///< of the first cycle [s]
   double now_ = 0.0;             ///< [s]
   bool finds_flight_ = false;
