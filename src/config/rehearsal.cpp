@@ -22,6 +22,7 @@ constexpr double kQuietEnd = 20.0;                 // without faults, so that al
 constexpr double kFirstFault = 5.0;                // [s]
 constexpr double kLeastGap = 3.0, kMostGap = 9.0;  // from one fault to the next [s]
 constexpr double kCompanionShare = 0.25;           // of the faults that come with a second one
+constexpr double kTakeoverTime = 3.0;              // in which a new planner finds out what UAVs do [s]
 constexpr double kCompanionDelay = 1.0;            // at most [s]
 constexpr double kShortest = 0.5, kLongest = 5.0;  // durations [s]
 static_assert(kLongest < kRehearsalTrackTimeout, "obstacles are to be remembered while their tracks are lost");
@@ -107,7 +108,8 @@ bool mayCoincide(FaultKind a, FaultKind b) {
 void addFault(double at, Scenario& scenario, UniformRandom& random) {
   const auto fits = [&scenario](const FaultInjection& fault) {
     return std::all_of(scenario.faults.begin(), scenario.faults.end(), [&fault](const FaultInjection& earlier) {
-      const bool is_over = earlier.at + earlier.duration + kCompanionDelay < fault.at;
+      const double takeover = earlier.kind == FaultKind::kPlannerDead ? kTakeoverTime : 0.0;
+      const bool is_over = earlier.at + earlier.duration + takeover + kCompanionDelay < fault.at;
       return is_over || mayCoincide(earlier.kind, fault.kind);
     });
   };

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 
 namespace swarm_planner {
@@ -19,6 +20,8 @@ static_assert(Command::Request::STOP == static_cast<int>(FlightCommand::kStop), 
 static_assert(Command::Request::JOIN == static_cast<int>(FlightCommand::kJoin), "service and core must agree");
 static_assert(Command::Request::LEAVE == static_cast<int>(FlightCommand::kLeave), "service and core must agree");
 
+// Tens of thousands of names.
+constexpr std::size_t kMostCommandBytes = 1 << 20;
 // Names that are no UAV's may be of any length.
 constexpr std::size_t kLongestName = 64;
 
@@ -91,7 +94,13 @@ CommandServices::CommandServices(const std::vector<std::string>& uav_names, Swar
   advertiseForAll(node, kHoldService, Command::Request::HOLD);
   advertiseForAll(node, kLandService, Command::Request::LAND);
   advertiseForAll(node, kEmergencyStopService, Command::Request::STOP);
-  servers_.push_back(node.advertiseService(kCommandService, &CommandServices::command, this));
+  servers_.push_back(advertiseGuarded<Command>(
+      node, kCommandService, kMostCommandBytes,
+      [this](Command::Request& request, Command::Response& response) { return command(request, response); },
+      [](InputFault, const std::string& why, Command::Response& response) {
+        response.accepted.assign(1, 0);
+        response.reasons.assign(1, why);
+      }));
 }
 
 void CommandServices::advertiseForAll(ros::NodeHandle& node, const char* name, std::uint8_t action) {

@@ -6,10 +6,13 @@
 #include <optional>
 #include <utility>
 
+#include "swarm_planner/ros/guarded_input.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 
 namespace swarm_planner {
 namespace {
+
+constexpr std::size_t kMostFaultBytes = 4096;
 
 /// Who injects what is not injected here.
 std::string whoElse(FaultKind kind) {
@@ -34,7 +37,10 @@ FaultService::FaultService(const Mission& mission, FaultInjector& injector, std:
              whoElse(fault.kind).c_str());
   }
   ros::NodeHandle private_node("~");
-  server_ = private_node.advertiseService(kInjectFaultService, &FaultService::serve, this);
+  server_ = advertiseGuarded<InjectFault>(
+      private_node, kInjectFaultService, kMostFaultBytes,
+      [this](InjectFault::Request& request, InjectFault::Response& response) { return serve(request, response); },
+      [](InputFault, const std::string& why, InjectFault::Response& response) { response.message = why; });
 }
 
 bool FaultService::serve(InjectFault::Request& request, InjectFault::Response& response) {

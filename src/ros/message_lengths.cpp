@@ -16,7 +16,7 @@ constexpr std::size_t kTrack = 4 + 4 * kVector + kQuaternion + 16;
 constexpr std::size_t kEmptyHeader = 4 + kStamp + 4;
 constexpr std::size_t kEmptyStampedTransform = kEmptyHeader + 4 + kTransform;
 constexpr std::size_t kEmptyTrajectoryPoint = 3 * 4 + 8;
-constexpr std::size_t kEmptyUavStatus = 3 * 4 + 3 + 8 + 8 + 5 * 8 + kVector;
+constexpr std::size_t kEmptyUavStatus = 3 * 4 + 4 + 8 + 8 + 5 * 8 + kVector;
 
 /// Walks over the bytes of a message; false as soon as they do not suffice.
 class Cursor {
@@ -44,6 +44,14 @@ class Cursor {
   }
 
   bool string() { return array(1); }
+  bool strings() {
+    std::uint32_t length = 0;
+    if (!count(4, length)) return false;
+    for (std::uint32_t i = 0; i < length; ++i) {
+      if (!string()) return false;
+    }
+    return true;
+  }
   bool header() { return skip(4 + kStamp) && string(); }
 
  private:
@@ -79,12 +87,8 @@ bool lengthsFit<tf2_msgs::TFMessage>(const std::uint8_t* bytes, std::size_t size
 template <>
 bool lengthsFit<trajectory_msgs::MultiDOFJointTrajectory>(const std::uint8_t* bytes, std::size_t size) {
   Cursor cursor(bytes, size);
-  std::uint32_t names = 0;
   std::uint32_t points = 0;
-  if (!cursor.header() || !cursor.count(4, names)) return false;
-  for (std::uint32_t i = 0; i < names; ++i) {
-    if (!cursor.string()) return false;
-  }
+  if (!cursor.header() || !cursor.strings()) return false;
   if (!cursor.count(kEmptyTrajectoryPoint, points)) return false;
   for (std::uint32_t i = 0; i < points; ++i) {
     if (!trajectoryPoint(cursor)) return false;
@@ -104,6 +108,17 @@ template <>
 bool lengthsFit<SetReference::Request>(const std::uint8_t* bytes, std::size_t size) {
   Cursor cursor(bytes, size);
   return cursor.header() && cursor.string() && cursor.array(kVector);
+}
+
+template <>
+bool lengthsFit<Command::Request>(const std::uint8_t* bytes, std::size_t size) {
+  return Cursor(bytes, size).strings();
+}
+
+template <>
+bool lengthsFit<InjectFault::Request>(const std::uint8_t* bytes, std::size_t size) {
+  Cursor cursor(bytes, size);
+  return cursor.string() && cursor.string();
 }
 
 }  // namespace swarm_planner

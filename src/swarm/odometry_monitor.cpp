@@ -57,7 +57,7 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     return Reason::kOdometryFrozen;
   }
   const bool fits =
-      !trusted_ || (doubted_ ? isBack(measurement, motions, parameters.input) : follows(measurement, parameters));
+      !trusted_ || (doubted_ ? isBack(measurement, motions, parameters) : follows(measurement, parameters));
   if (fits) {
     trust(measurement, motions);
     return Reason::kNone;
@@ -86,13 +86,17 @@ bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameter
 }
 
 bool OdometryMonitor::isBack(const UavMeasurement& measurement, const MotionMemory& motions,
-                             const InputParameters& input) const {
+                             const Parameters& parameters) const {
+  if (measurement.stamp <= trusted_->stamp) return false;
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
-  if (!expected || measurement.stamp <= trusted_->stamp) return false;
+  if (!expected) {
+    const bool is_recent = measurement.stamp - trusted_->stamp <= parameters.input.odometry_doubt_time;
+    return is_recent && isReachable(*trusted_, measurement, parameters);
+  }
   const Vector3 off = measurement.p - expected->p;
   // Tracking may have brought it nearer to its motion meanwhile.
   const double share = trusted_off_.isZero(0.0) ? 0.0 : off.dot(trusted_off_) / trusted_off_.squaredNorm();
-  return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(input);
+  return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(parameters.input);
 }
 
 void OdometryMonitor::trust(const UavMeasurement& measurement, const MotionMemory& motions) {

@@ -34,6 +34,8 @@ class Monitor : public ::testing::Test {
     motion.assign(plan, stop);
     motions_.commit(motion);
   }
+  /// It comes from elsewhere to `p`, so that a position that stays the same there tells something.
+  void flyTo(const Vector3& p) { judge(-0.6, p - 0.6 * Vector3(3, 0, 0), Vector3(3, 0, 0)); }
   void commitRest(const Vector3& p) {
     CommittedMotion motion;
     motion.assignRest(kBegin - 100.0, p);
@@ -71,6 +73,7 @@ TEST_F(Monitor, SaysWhatCannotBeUsedAtAll) {
 
 TEST_F(Monitor, NoticesAtOnceThatAFastUavsPositionIsFrozen) {
   commit(kPlace, kFast);
+  flyTo(kPlace);
   EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
   EXPECT_EQ(judge(0.3, kPlace, kFast), Reason::kOdometryFrozen);
   EXPECT_EQ(judge(5.0, kPlace, kFast), Reason::kOdometryFrozen);
@@ -80,9 +83,10 @@ TEST_F(Monitor, NoticesAtOnceThatAFastUavsPositionIsFrozen) {
 
 TEST_F(Monitor, LetsPositionsPassThatDifferInTheLastBit) {
   commit(kPlace, kFast);
+  flyTo(kPlace);
   double x = kPlace.x();
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(judge(kCycle * i, Vector3(x, 2, 10), kFast), Reason::kNone);
+    EXPECT_NE(judge(kCycle * i, Vector3(x, 2, 10), kFast), Reason::kOdometryFrozen);
     x = std::nextafter(x, 10.0);
   }
 }
@@ -90,14 +94,22 @@ TEST_F(Monitor, LetsPositionsPassThatDifferInTheLastBit) {
 // Frozen while it hovered: the velocity says nothing, the motion does. For a moment the UAV may only be late.
 TEST_F(Monitor, NoticesByTheMotionThatAHoveringUavsPositionIsFrozen) {
   commit(kPlace, kFast);
+  flyTo(kPlace);
   for (const double t : {0.0, 0.3, 0.6, 0.9, 1.2}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kNone) << t;
   for (const double t : {1.5, 1.8, 30.0}) EXPECT_EQ(judge(t, kPlace, Vector3::Zero()), Reason::kOdometryFrozen) << t;
 }
 
 TEST_F(Monitor, NoticesAFrozenPositionBesideALiveVelocity) {
   commit(kPlace, kFast);
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kNone);
+  flyTo(kPlace);
+  for (int i = 0; i < 5; ++i) EXPECT_NE(judge(kCycle * i, kPlace, (1.0 + 0.01 * i) * kFast), Reason::kOdometryFrozen);
   EXPECT_EQ(judge(1.5, kPlace, kFast), Reason::kOdometryFrozen);
+}
+
+// On the ground, motors off, whatever it is told to fly.
+TEST_F(Monitor, LetsAUavRestThatHasNotSetOffYet) {
+  commit(kPlace, kFast);
+  for (int i = 0; i < 100; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;
 }
 
 TEST_F(Monitor, LetsAUavRestWithoutNoiseForEver) {
@@ -122,7 +134,7 @@ TEST_F(Monitor, LetsAUavThatHasRestedSetOffLate) {
 
 // It was carried elsewhere and is to rest there now.
 TEST_F(Monitor, DoesNotHoldAnOldMotionAgainstAUav) {
-  const Vector3 elsewhere = kPlace + Vector3(1, 0, 0);
+  const Vector3 elsewhere = kPlace + Vector3(1.2, 0, 0);
   for (const bool is_told : {true, false}) {
     monitor_ = OdometryMonitor();
     motions_.clear();
@@ -147,11 +159,64 @@ TEST_F(Monitor, NoticesAJumpAndItsEnd) {
 }
 
 TEST_F(Monitor, BelievesAJumpThatLasts) {
+  parameters_.input.relocalisation_time = 1.0;
   const Vector3 elsewhere = kPlace + Vector3(0, 50, 0);
   EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
   for (const double t : {0.3, 0.6, 0.9, 1.2}) EXPECT_EQ(judge(t, elsewhere + t * kFast, kFast), Reason::kOdometryJumps);
   EXPECT_EQ(judge(1.5, elsewhere + 1.5 * kFast, kFast), Reason::kNone);
   EXPECT_EQ(judge(1.8, elsewhere + 1.8 * kFast, kFast), Reason::kNone);
+}
+
+// A step to the side becomes a possible flight when enough time has passed: it must not be taken for one.
+TEST_F(Monitor, DoesNotTakeAJumpForAFlightLater) {
+  commit(kPlace, kFast);
+  for (const double side : {1.6, 3.0, 6.0}) {
+    monitor_ = OdometryMonitor();
+    EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+    for (double t = 0.3; t < 9.0; t += kCycle) {
+      ASSERT_EQ(judge(t, kPlace + t * kFast + Vector3(0, side, 0), kFast), Reason::kOdometryJumps) << side << " " << t;
+    }
+  }
+}
+
+// The motion brakes meanwhile; what tracking was off before may have stayed or gone.
+TEST_F(Monitor, BelievesAtOnceWhatIsAsFarOffTheMotionAsBefore) {
+  commit(kPlace, kFast);
+  const Vector3 off(0, 0.9, 0);
+  for (const double share : {1.0, 0.5, 0.0, -1.0, 2.0}) {
+    monitor_ = OdometryMonitor();
+    EXPECT_EQ(judge(0.0, kPlace + off, kFast), Reason::kNone);
+    EXPECT_EQ(judge(0.3, kPlace + Vector3(0, 0, 8), kFast), Reason::kOdometryJumps);
+    EXPECT_EQ(judge(3.0, kPlace + 3.0 * kFast + share * off, kFast) == Reason::kNone, share >= 0.0 && share <= 1.0)
+        << share;
+  }
+}
+
+// ---- Drift
+
+TEST_F(Monitor, NoticesADriftThatTheVelocityDoesNotHave) {
+  commit(kPlace, kFast);
+  double noticed = -1.0;
+  for (double t = 0.0; t < 6.0; t += kCycle) {
+    const Reason reason = judge(t, kPlace + t * kFast + t * Vector3(0, 1, 0), kFast);
+    if (reason == Reason::kNone) continue;
+    ASSERT_EQ(reason, Reason::kOdometryDrifts) << t;
+    if (noticed < 0.0) noticed = t;
+  }
+  EXPECT_NEAR(noticed, 1.2, kCycle);
+  EXPECT_EQ(judge(6.0, kPlace + 6.0 * kFast, kFast), Reason::kNone) << "it does not come back";
+}
+
+TEST_F(Monitor, LetsAUavPassThatIsBlownOffOrHasNoVelocity) {
+  commit(kPlace, kFast);
+  const Vector3 blown(0, 2, 0);
+  for (double t = 0.0; t < 6.0; t += kCycle) {
+    ASSERT_EQ(judge(t, kPlace + t * (kFast + blown), kFast + blown), Reason::kNone) << t;
+  }
+  monitor_ = OdometryMonitor();
+  for (double t = 0.0; t < 6.0; t += kCycle) {
+    ASSERT_EQ(judge(t, kPlace + t * kFast, Vector3::Zero()), Reason::kNone) << t;
+  }
 }
 
 // However long ago the last believed measurement is by then.

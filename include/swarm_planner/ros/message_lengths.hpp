@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "swarm_planner/Command.h"
+#include "swarm_planner/InjectFault.h"
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/SetReference.h"
@@ -31,5 +33,9 @@ template <>
 bool lengthsFit<PlannerStatus>(const std::uint8_t* bytes, std::size_t size);
 template <>
 bool lengthsFit<SetReference::Request>(const std::uint8_t* bytes, std::size_t size);
+template <>
+bool lengthsFit<Command::Request>(const std::uint8_t* bytes, std::size_t size);
+template <>
+bool lengthsFit<InjectFault::Request>(const std::uint8_t* bytes, std::size_t size);
 
 }  // namespace swarm_planner

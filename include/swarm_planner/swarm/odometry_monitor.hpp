@@ -23,12 +23,11 @@ namespace swarm_planner {
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
 ///    each axis does not reach 7 n.
 ///  - stamps go back: the same, told by its own reason.
-///  - drifts: p1 - p0 - dt (v0 + v1) / 2, summed up over the measurements of some 5 s, exceeds 7 n: the position does
-///  not
-///    follow the velocity. A UAV that is pushed or blown off has both.
+///  - drifts: the position does not follow the velocity: p1 - p0 - dt (v0 + v1) / 2, summed up over the measurements of
+///    some 5 s, exceeds 7 n. A UAV that is pushed or blown off has both.
 ///    After any of these three a measurement is believed that lies within 3 n of where the motion, or the motion with
-///    the deviation that was there before, has the UAV; and any, once measurements have fitted each other for
-///    relocalisation_time: an estimator that has found its place anew.
+///    the deviation that was there before, has the UAV (without a motion: that a flight within T leads to); and any,
+///    once measurements have fitted each other for relocalisation_time: an estimator that has found its place anew.
 ///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
 class OdometryMonitor {
  public:
@@ -51,7 +50,7 @@ class OdometryMonitor {
   /// Whether it follows from the last trusted one; otherwise fault_ says why not.
   bool follows(const UavMeasurement& measurement, const Parameters& parameters);
   /// Whether a doubted UAV is again where it is to be.
-  bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input) const;
+  bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters) const;
   void trust(const UavMeasurement& measurement, const MotionMemory& motions);
   bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
 
