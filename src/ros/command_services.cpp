@@ -22,13 +22,6 @@ static_assert(Command::Request::LEAVE == static_cast<int>(FlightCommand::kLeave)
 
 // Tens of thousands of names.
 constexpr std::size_t kMostCommandBytes = 1 << 20;
-// Names that are no UAV's may be of any length.
-constexpr std::size_t kLongestName = 64;
-
-std::string shortened(const std::string& name) {
-  return name.size() <= kLongestName ? name : name.substr(0, kLongestName) + "...";
-}
-
 std::string knownNames(const std::map<std::string, std::size_t>& index) {
   constexpr int kMost = 10;
   std::string names;

@@ -61,14 +61,16 @@ void Surroundings::setUnknown(std::size_t uav) {
 }
 
 void Surroundings::setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older) {
+  motions_[uav] = Motions();
   replaceMotions(uav, newest, older);
   areas_[uav] = motions_[uav].box;
 }
 
 void Surroundings::replaceMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older) {
   predict(newest, epoch_, parameters_.time.sampling_time, predictions_[uav]);
-  motions_[uav] = {&newest, older, newest.box()};
-  if (older != nullptr) include(motions_[uav].box, older->box());
+  motions_[uav].newest = &newest;
+  motions_[uav].older = older;
+  updateBox(motions_[uav]);
 }
 
 void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place) {
@@ -80,12 +82,20 @@ void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const std
     LastPlace& place = last_places_.back();
     place.motion.assignRest(epoch_, *last_place);
     predict(place.motion, epoch_, parameters_.time.sampling_time, place.prediction);
-    motions.box.include(*last_place);
   }
-  const Vector3 reach = Vector3::Constant(doubt.limit);
+  updateBox(motions);
+  include(areas_[uav], motions.box);
+}
+
+void Surroundings::updateBox(Motions& motions) const {
+  motions.box = motions.newest->box();
+  if (motions.older != nullptr) include(motions.box, motions.older->box());
+  if (motions.last_place >= 0) {
+    include(motions.box, last_places_[static_cast<std::size_t>(motions.last_place)].motion.box());
+  }
+  const Vector3 reach = Vector3::Constant(motions.doubt.limit);
   motions.box.min -= reach;
   motions.box.max += reach;
-  include(areas_[uav], motions.box);
 }
 
 void Surroundings::setPlanning(std::size_t uav, const KinematicState& start) { include(areas_[uav], reach(start)); }

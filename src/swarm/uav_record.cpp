@@ -83,7 +83,9 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
     start = {measurement.p, measurement.v, motions.flown().at(epoch).a};
     return;
   }
-  if (measured.norm() > leastDistanceOff(parameters)) last_place = measurement.p;
+  // At once if it is far off; if it is off by less, but for long, it may hover while its motions leave.
+  const double least_mean = std::max(parameters.limits.tracking_margin, parameters.input.odometry_noise);
+  if (measured.norm() > leastDistanceOff(parameters) || deviation.norm() > least_mean) last_place = measurement.p;
   start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
 }
 
@@ -132,7 +134,7 @@ void UavRecord::loseSight(const Parameters& parameters) {
 }
 
 MotionDoubt UavRecord::doubt(const InputParameters& input) const {
-  if (!monitor.trusted()) return {};
+  if (!unseen || !monitor.trusted()) return {};
   return {monitor.trusted()->stamp, input.lost_growth_rate, input.lost_growth_limit};
 }
 

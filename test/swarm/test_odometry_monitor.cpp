@@ -204,7 +204,7 @@ TEST_F(Monitor, NoticesADriftThatTheVelocityDoesNotHave) {
     if (noticed < 0.0) noticed = t;
   }
   EXPECT_NEAR(noticed, 1.2, kCycle);
-  EXPECT_EQ(judge(6.0, kPlace + 6.0 * kFast, kFast), Reason::kNone) << "it does not come back";
+  EXPECT_EQ(judge(6.1, motions_.newest().at(kBegin + 6.1).p, kFast), Reason::kNone) << "it does not come back";
 }
 
 TEST_F(Monitor, LetsAUavPassThatIsBlownOffOrHasNoVelocity) {

@@ -73,6 +73,7 @@ class Surroundings {
     PredictedMotion prediction;
   };
 
+  void updateBox(Motions& motions) const;
   Box reach(const KinematicState& start) const;
   void collectObstacles(const Box& reach, UavProblem& problem) const;
   void collectUavs(std::size_t uav, const Box& reach, UavProblem& problem) const;
