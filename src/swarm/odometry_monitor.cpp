@@ -75,7 +75,7 @@ bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameter
   if (!isReachable(*trusted_, measurement, parameters)) return false;
   // A source that always says zero does not know the velocity.
   const bool is_known = !trusted_->v.isZero(0.0) || !measurement.v.isZero(0.0);
-  if (dt > kLongestStep || !is_known) {
+  if (dt > kLongestStep || !is_known || !has_moved_) {
     drift_.setZero();
     return true;
   }
@@ -112,7 +112,7 @@ bool OdometryMonitor::isFrozen(const UavMeasurement& measurement, const MotionMe
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   const bool same = held_ && measurement.p == held_->p && measurement.stamp > held_->stamp;
   if (!first_) first_ = measurement.p;
-  has_moved_ = has_moved_ || (measurement.p - *first_).norm() > kJumpNoises * noiseOf(input);
+  has_moved_ = has_moved_ || (measurement.p - *first_).norm() > kFrozenNoises * noiseOf(input);
   if (!same) {
     held_ = measurement;
     forgetMotion();
@@ -126,7 +126,9 @@ bool OdometryMonitor::isFrozen(const UavMeasurement& measurement, const MotionMe
     return false;
   }
   if (!overdue_since_) overdue_since_ = measurement.stamp;
-  return measurement.stamp - *overdue_since_ >= input.odometry_doubt_time;
+  // Without setpoints nobody moves: one that only stands still has to be planned for again some time.
+  const double overdue = measurement.stamp - *overdue_since_;
+  return overdue >= input.odometry_doubt_time && overdue < input.relocalisation_time;
 }
 
 void OdometryMonitor::forgetMotion() {

@@ -17,7 +17,7 @@ namespace swarm_planner {
 ///  - frozen: the position stays the same to the last bit while stamps go on, though the velocity in the same message,
 ///    unchanged too, has carried the UAV by more than 2 n; or for T after its motion has moved by more than 2 n.
 ///    Whoever is to rest may rest, without noise for ever, and so may who has not yet left the ground. Ends with the
-///    first new position.
+///    first new position; against the motion alone after relocalisation_time, too.
 ///  - jumps: no flight leads from the last measurement that was believed (p0, v0) to this one (p1, v1), dt later. One
 ///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
