@@ -14,8 +14,7 @@ namespace swarm_planner {
 /// while the fault lasts or within kReportTime after it. Noticeable, so that it has to be reported, is
 ///   - odometry that cannot be used, once two cycles have met it (lost odometry: after odometry_timeout);
 ///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
-///   two
-///     cycles have met it (frozen odometry: after odometry_timeout);
+///     two cycles have met it (frozen odometry: after odometry_timeout);
 ///   - a vehicle farther than two tracking margins from the motion that it should fly for kStrayTime: less cannot be
 ///     told from wind and noise, as the planner averages over some cycles.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.

@@ -30,8 +30,7 @@ struct UavOrders {
 /// A record counts only for the same scenario, and only if it was made under the same ROS master (/run_id), or less
 /// than kMasterRestart ago should the master have been restarted too. Of such a record
 ///  - orders hold without limit: a swarm that was told to stay must not fly off;
-///  - motions hold if they are younger than kLongestWait, which no battery outlasts, and if ROS time has not jumped
-///  back
+///  - motions hold if they are younger than kLongestWait, which no battery outlasts, and if ROS time has not gone back
 ///    since. Each UAV's odometry has to agree with them besides (SwarmPlanner::takeOver).
 class FlightRecord {
  public:
