@@ -3,13 +3,14 @@
 
 #include <ros/console.h>
 
+#include "swarm_planner/ros/node_constants.hpp"
+
 namespace swarm_planner {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kWarningPeriod = 5.0;  // [s]
-constexpr double kReportPeriod = 0.5;   // [s]
+constexpr double kReportPeriod = 0.5;  // [s]
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include "swarm_planner/ros/master_watch.hpp"
 #include "swarm_planner/ros/node_parameters.hpp"
 #include "swarm_planner/ros/obstacle_sim_node.hpp"
 
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
     const std::vector<NodeParameter> table = {{"scenario", "path of the scenario file", std::string(), true}};
     const ParameterMap own = takeNodeParameters(table, parameters, faults);
     ObstacleSimNode node(loadNodeMission(std::get<std::string>(own.at("scenario")), parameters, faults));
+    const MasterWatch master_watch;
     ros::spin();
   } catch (const ConfigError& error) {
     ROS_FATAL_STREAM("obstacle_sim_node cannot start:\n" << error.what());

@@ -72,8 +72,10 @@ double PlannerDiagnostics::rate(std::uint64_t count, std::uint64_t last_count) c
 
 void PlannerDiagnostics::describeCycle(Status& status) {
   status.summary(DiagnosticStatus::OK, planner_status_.started ? "planning" : "waiting");
-  if (tally_.cycles() == 0) {
-    status.summary(DiagnosticStatus::ERROR, clock_.empty() ? "no planning cycle since the last report" : clock_);
+  if (!clock_.empty()) {
+    status.summary(DiagnosticStatus::ERROR, clock_);
+  } else if (tally_.cycles() == 0) {
+    status.summary(DiagnosticStatus::ERROR, "no planning cycle since the last report");
   }
   if (tally_.deadlineMisses() > 0) {
     status.mergeSummaryf(DiagnosticStatus::WARN, "%zu of %zu cycles missed their deadline", tally_.deadlineMisses(),

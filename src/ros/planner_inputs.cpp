@@ -12,8 +12,6 @@
 namespace swarm_planner {
 namespace {
 
-// Between warnings about the same source [s].
-constexpr double kWarningPeriod = 5.0;
 // Of transforms [s]: as long as tf2's own listener remembers them.
 constexpr double kTransformMemory = 10.0;
 

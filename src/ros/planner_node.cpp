@@ -19,9 +19,7 @@
 namespace swarm_planner {
 namespace {
 
-// Between two messages of a kind to the console [s].
-constexpr double kWarningPeriod = 5.0;
-// The same for answers to services: a new reference for every UAV of a swarm is not news for each [s].
+// Between two messages about answers to services: a new reference for every UAV of a swarm is not news for each [s].
 constexpr double kServicePeriod = 0.1;
 // Names in one message.
 constexpr std::size_t kMostNames = 12;
@@ -150,7 +148,9 @@ void PlannerNode::tellOperator() const {
 }
 
 void PlannerNode::resetAfterTimeJump(double now) {
-  ROS_WARN("ROS time jumped back by %.2f s: plans and inputs are forgotten, the run starts anew", last_now_ - now);
+  if (clock_.noteJumpBack(ros::SteadyTime::now().toSec())) {
+    ROS_WARN("ROS time jumped back by %.2f s: plans and inputs are forgotten, the run starts anew", last_now_ - now);
+  }
   last_epoch_ = 0.0;
   planner_.reset();
   if (record_) record_->forgetMotions();

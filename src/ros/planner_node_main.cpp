@@ -3,6 +3,7 @@
 #include <ros/init.h>
 #include <ros/node_handle.h>
 
+#include "swarm_planner/ros/master_watch.hpp"
 #include "swarm_planner/ros/node_parameters.hpp"
 #include "swarm_planner/ros/planner_node.hpp"
 #include "swarm_planner/ros/planner_options.hpp"
@@ -17,6 +18,7 @@ int main(int argc, char** argv) {
     const PlannerNodeOptions options = takePlannerNodeOptions(parameters, faults);
     const Mission mission = loadNodeMission(options.scenario, parameters, faults);
     PlannerNode node(SwarmPlanner(mission), mission, options);
+    const MasterWatch master_watch;
     ros::spin();
   } catch (const ConfigError& error) {
     ROS_FATAL_STREAM("planner_node cannot start:\n" << error.what());

@@ -10,16 +10,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "swarm_planner/ros/node_constants.hpp"
 #include "swarm_planner/ros/planner_node.hpp"
 #include "swarm_planner/ros/time_conversion.hpp"
 
 namespace swarm_planner {
-namespace {
-
-// Between two messages of a kind to the console [s] of wall time.
-constexpr double kWarningPeriod = 5.0;
-
-}  // namespace
 
 void PlannerNode::openRecord(const std::string& path, const Mission& mission) {
   if (path.empty()) return;

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/param.h>
 
+#include "swarm_planner/ros/master_watch.hpp"
 #include "swarm_planner/ros/node_parameters.hpp"
 #include "swarm_planner/ros/quad_sim_node.hpp"
 #include "swarm_planner/ros/quad_sim_options.hpp"
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
       faults.add("parameters", "speed", "is not 1, which needs /use_sim_time: nobody would listen to /clock");
     }
     QuadSimNode node(loadNodeMission(options.scenario, parameters, faults), options);
+    const MasterWatch master_watch;
     ros::spin();
     node.reportIfInterrupted();
     return node.clear() ? 0 : 2;

@@ -23,7 +23,6 @@ constexpr std::size_t kMostFrames = 20000;
 constexpr double kMostAhead = 2.0;
 // Beyond 0.01 tf2 itself refuses the square of a quaternion's norm, and complains.
 constexpr double kMostNormError = 0.009;
-constexpr double kWarningPeriod = 5.0;  // [s]
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 bool isName(const std::string& frame) { return !frame.empty() && frame.size() <= kLongestName; }

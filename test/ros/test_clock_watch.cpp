@@ -39,5 +39,28 @@ TEST(ClockWatch, TellsTimeThatStandsStillUntilItGoesOnForthOrBack) {
   }
 }
 
+TEST(ClockWatch, TellsTimeThatJumpsBackAgainAndAgainButNotOnce) {
+  ClockWatch watch;
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_EQ(watch.noteJumpBack(5.0 + i), i + 1 < ClockWatch::kMostJumps);
+    watch.note(20.0 - i, 5.0 + i);
+    const bool told = watch.fault().find("second source of /clock") != std::string::npos;
+    EXPECT_EQ(told, i + 1 >= ClockWatch::kMostJumps) << i << ": " << watch.fault();
+  }
+  for (double wall = 10.0; wall < 14.9; wall += 0.5) {
+    watch.note(wall, wall);
+    EXPECT_NE(watch.fault(), "");
+  }
+  watch.note(15.1, 15.1);
+  EXPECT_EQ(watch.fault(), "");
+  // Seldom enough, each is one of its own: a bag that loops.
+  for (int i = 0; i < 6; ++i) {
+    const double wall = 100.0 + i * ClockWatch::kCalm;
+    EXPECT_TRUE(watch.noteJumpBack(wall));
+    watch.note(wall, wall);
+    EXPECT_EQ(watch.fault(), "");
+  }
+}
+
 }  // namespace
 }  // namespace swarm_planner

@@ -1,9 +1,11 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 //
 // flood SECONDS RATE TOPIC...: publishes on each topic RATE messages per second that are of no use to anybody, of the
-// type that goes with the topic's name, and prints how many. What no script can send that fast.
+// type that goes with the topic's name, and prints how many. On /clock it repeats the time that another node gives.
+// What no script can send that fast.
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
@@ -50,6 +52,15 @@ std::function<void()> senderFor(ros::NodeHandle& node, const std::string& topic)
     message.header.frame_id = "map";
     message.points.resize(20);
     return sender(node, topic, message);
+  }
+  if (endsWith(topic, "clock")) {
+    // roscpp itself reads /clock, as use_sim_time is set.
+    const ros::Publisher publisher = node.advertise<rosgraph_msgs::Clock>(topic, 100);
+    return [publisher] {
+      rosgraph_msgs::Clock message;
+      message.clock = ros::Time::now();
+      if (!message.clock.isZero()) publisher.publish(message);
+    };
   }
   tf2_msgs::TFMessage message;
   message.transforms.resize(1);

@@ -3,6 +3,7 @@
 """Breaks for the user: a planner that is silent, and does not say why, because /clock stands still or never came, or
 that does not recover when ROS time goes on or has jumped."""
 
+import math
 import threading
 import time
 import unittest
@@ -16,6 +17,7 @@ from swarm_planner.msg import UavStatus
 
 STEP = 0.02
 SPEED = 2.0
+SECOND_CLOCK = 'second source of /clock'
 
 
 class ClockFaultsTest(unittest.TestCase):
@@ -29,12 +31,16 @@ class ClockFaultsTest(unittest.TestCase):
         cls.clock = rospy.Publisher('/clock', Clock, queue_size=1)
         cls.now = 500.0
         cls.runs = threading.Event()
+        cls.second_clock = threading.Event()
         threading.Thread(target=cls.run_clock, daemon=True).start()
 
     @classmethod
     def run_clock(cls):
         while not rospy.is_shutdown():
             time.sleep(STEP / SPEED)
+            if cls.second_clock.is_set():
+                cls.clock.publish(Clock(clock=rospy.Time.from_sec(cls.now - 60.0)))
+                time.sleep(STEP / SPEED)
             if not cls.runs.is_set():
                 continue
             cls.now += STEP
@@ -106,6 +112,26 @@ class ClockFaultsTest(unittest.TestCase):
         for vehicle, uav in zip(self.vehicles, status.uavs):
             self.assertGreater(uav.target.x, vehicle.start[0] - 2.0, 'it flies back')
             self.assertLess(uav.target.x, vehicle.start[0] + 10.0, 'it jumps ahead')
+            vehicle.trajectories.clear()
+            for trajectory in vehicle.trajectories.wait_for_more(5):
+                self.assertLess(trajectory.header.stamp.to_sec(), 400.0, 'setpoints of another time')
+        # The negative control of the next test: a jump or two are no second clock.
+        self.assertFalse(any(SECOND_CLOCK in entry.message for array in self.diagnostics.all()
+                             for entry in array.status))
+
+    def test_5_two_clocks_are_told_and_end_without_a_trace(self):
+        for vehicle in self.vehicles:
+            vehicle.trajectories.clear()
+        self.second_clock.set()
+        self.wait_for_health(DiagnosticStatus.ERROR, SECOND_CLOCK)
+        self.second_clock.clear()
+        self.wait_for_health(DiagnosticStatus.OK, 'planning')
+        self.planner.status.clear()
+        self.wait_for_tracking()
+        for vehicle in self.vehicles:
+            for point in (point for each in vehicle.trajectories.all() for point in each.points):
+                place = point.transforms[0].translation
+                self.assertTrue(all(math.isfinite(value) for value in (place.x, place.y, place.z)))
 
 
 if __name__ == '__main__':

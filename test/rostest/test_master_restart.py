@@ -15,8 +15,11 @@ import rospkg
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
+from std_msgs.msg import Empty
+from std_srvs.srv import Trigger
 from swarm_harness import Planner, Recorder, wait_for
 from swarm_planner.msg import UavStatus
+from trajectory_msgs.msg import MultiDOFJointTrajectory
 
 
 def free_port():
@@ -62,22 +65,40 @@ class MasterRestartTest(unittest.TestCase):
             self.assertEqual(uav.state, UavStatus.TRACKING)
         self.assertGreater(self.odometry.last().pose.pose.position.x, begin + 1.0)
 
-    def published(self):
-        return [topic for topic, _ in rosgraph.Master('/test').getPublishedTopics('')]
+    def registered(self):
+        """Names of what the master knows: topics that are published, topics that the planner reads, services."""
+        published, subscribed, services = rosgraph.Master('/test').getSystemState()
+        planner = rospy.resolve_name('planner_node')
+        return ({topic for topic, _ in published}, {topic for topic, nodes in subscribed if planner in nodes},
+                {name for name, _ in services})
 
-    def test_flight_goes_on(self):
+    def test_flight_goes_on_and_nodes_come_back(self):
+        control = rospy.Publisher('control', Empty, queue_size=1)
         self.planner.wait_for_start()
         self.planner.wait_for_uav('uav1', lambda uav: uav.state == UavStatus.TRACKING, 'tracking')
         time.sleep(2.0)
-        status = rospy.resolve_name('planner_node/status')
-        self.assertIn(status, self.published())
+        before = self.registered()
+        self.assertIn(control.resolved_name, before[0])
+        self.assertIn(rospy.resolve_name('uav1/odometry'), before[1])
+        self.assertIn(rospy.resolve_name('planner_node/hold'), before[2])
         self.master.kill()
         self.master.wait()
         self.check_flight(4.0)
         self.start_master()
         self.check_flight(4.0)
-        # As ROS 1 has it: nodes do not come back to a new master, so that new nodes do not find them.
-        self.assertNotIn(status, self.published())
+
+        def others(names):
+            return {name for name in names if name != control.resolved_name and 'test_master_restart' not in name}
+        wait_for(lambda: all(others(old) <= new for old, new in zip(before, self.registered())),
+                 'nodes that register again')
+        # The negative control: this node has no MasterWatch, and ROS 1 does not do it.
+        self.assertNotIn(control.resolved_name, self.registered()[0])
+        # Who comes later finds topics and services; who was connected before is still.
+        Recorder('uav2/command/trajectory', MultiDOFJointTrajectory).wait_for_more(3)
+        rospy.wait_for_service('planner_node/hold', timeout=20)
+        answer = rospy.ServiceProxy('planner_node/hold', Trigger)()
+        self.assertTrue(answer.success, answer.message)
+        self.planner.wait_for_uav('uav1', lambda uav: uav.state == UavStatus.HOLDING, 'holding')
 
 
 if __name__ == '__main__':

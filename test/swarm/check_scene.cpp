@@ -109,26 +109,36 @@ SampledSlack sampledObstacleSlack(const CheckScene& scene, const PredictedObstac
   const auto demanded = [&](double time) {
     return obstacle.least_distance + obstacle.growth_rate * std::min(time + age, obstacle.growth_time);
   };
-  const auto clearance = [&](double time) {
-    const Vector3 moved = (time + age) * obstacle.body->velocity();
-    return obstacle.body->signedDistance(motion.after(time).p - moved) - demanded(time);
+  // As the obstacle sees it, which then stands still.
+  const auto relativePlace = [&](double time) {
+    return Vector3(motion.after(time).p - (time + age) * obstacle.body->velocity());
   };
   const double before =
       obstacle.body->signedDistance(scene.committed - age * obstacle.body->velocity()) - demanded(0.0);
-  const double waived = clearance(0.0) < 0.0 ? std::min(before, 0.0) : 0.0;
+  const bool starts_within = obstacle.body->signedDistance(relativePlace(0.0)) < demanded(0.0);
+  const double waived = starts_within ? std::min(before, 0.0) : 0.0;
   SampledSlack result{std::numeric_limits<double>::infinity(), 0.0, waived < 0.0};
   const bool stands = obstacle.body->velocity().isZero(0.0) && obstacle.growth_rate == 0.0;
   const double end =
       std::min(motion.duration() + (stands ? kSample : scene.limits.look_ahead), obstacle.valid_until - motion.epoch());
-  for (double time = 0.0; time <= end && result.slack > kDeep; time += kSample) {
-    // Far away the box about the body will do.
-    const Vector3 moved = (time + age) * obstacle.body->velocity();
-    const double reach = result.slack + waived + demanded(time);
-    if (obstacle.body->distanceLowerBound(motion.after(time).p - moved) > reach) continue;
-    const double slack = clearance(time) - waived;
-    if (slack < result.slack) {
-      result.slack = slack;
-      result.time = time;
+  // Coarse steps first: most of the fine ones then cannot find less. Each stride goes on with what is known.
+  for (const int stride : {64, 8, 1}) {
+    double known_distance = -std::numeric_limits<double>::infinity();
+    Vector3 known_place = Vector3::Zero();
+    for (int n = 0; n * kSample <= end && result.slack > kDeep; n += stride) {
+      const double time = n * kSample;
+      const Vector3 place = relativePlace(time);
+      const double reach = result.slack + waived + demanded(time);
+      // Far away the box about the body will do; and no distance changes by more than what has been moved.
+      if (obstacle.body->distanceLowerBound(place) > reach) continue;
+      if (known_distance - (place - known_place).norm() > reach) continue;
+      known_distance = obstacle.body->signedDistance(place);
+      known_place = place;
+      const double slack = known_distance - demanded(time) - waived;
+      if (slack < result.slack) {
+        result.slack = slack;
+        result.time = time;
+      }
     }
   }
   return result;

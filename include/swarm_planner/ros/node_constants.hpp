@@ -49,6 +49,9 @@ constexpr std::uint32_t kMostTrajectoryBytes = 8000000;  // 40,000 points
 constexpr std::uint32_t kMostReferenceBytes = 300000;    // kMostPathPoints points, and names
 constexpr std::uint32_t kMostStatusBytesPerUav = 2048;
 
+/// Between two messages of a kind to the console [s] of wall time.
+constexpr double kWarningPeriod = 5.0;
+
 /// Clocks of different computers and the order in which /clock and messages arrive let a stamp lie so far in the
 /// future without being wrong [s].
 constexpr double kFutureTolerance = 0.1;
