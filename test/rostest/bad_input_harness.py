@@ -8,48 +8,12 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
-from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Log
 from swarm_harness import Recorder, wait_for
 
 TEN_MEGABYTES = 'x' * 10000000
 # What a node may write at once: bad input names every bad thing in a bounded sentence, a few of them per message.
 MOST_CONSOLE_TEXT = 3000
-
-
-class Diagnostics:
-    """The newest entry of each name."""
-
-    def __init__(self):
-        self._recorder = Recorder('/diagnostics', DiagnosticArray)
-
-    def entry(self, name):
-        for array in reversed(self._recorder.all()):
-            for status in array.status:
-                if status.name == name:
-                    return status
-        return None
-
-    def count(self, name, key):
-        """The value of a counter; 0 as long as it has not been published."""
-        status = self.entry(name)
-        values = {each.key: each.value for each in status.values} if status else {}
-        return int(values.get(key, 0))
-
-    def wait_for_count(self, name, key, more_than, publish=lambda: None):
-        """Publishes until the count has grown."""
-        def grown():
-            publish()
-            rospy.sleep(0.1)
-            return self.count(name, key) > more_than
-        wait_for(grown, '"%s" of %s above %d' % (key, name, more_than))
-
-
-    def wait_for_counts(self, name, key, items):
-        """`items`: pairs of a cause and what publishes a message with it. Each is counted under its cause; it is sent
-        again until then, as a queue of one message keeps only the newest."""
-        for cause, publish in items:
-            self.wait_for_count(name, key + ': ' + cause, self.count(name, key + ': ' + cause), publish)
 
 
 class Console:

@@ -11,9 +11,11 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
-from swarm_planner.msg import PlannerStatus, SwarmPlan
+from rosgraph_msgs.msg import Clock
+from swarm_planner.msg import ObstacleTrack, ObstacleTrackArray, PlannerStatus, SwarmPlan
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 
@@ -117,6 +119,75 @@ class Planner:
                         'the start of the run')
 
 
+class Diagnostics:
+    """What nodes say of their health. A name may lack the node's before it."""
+
+    def __init__(self):
+        self._recorder = Recorder('/diagnostics', DiagnosticArray)
+
+    def clear(self):
+        self._recorder.clear()
+
+    def entries(self, name):
+        """All that there have been of a name, the newest last."""
+        return [status for array in self._recorder.all() for status in array.status
+                if status.name == name or status.name.endswith(': ' + name)]
+
+    def entry(self, name):
+        """The newest of a name, or None."""
+        return next(reversed(self.entries(name)), None)
+
+    def told(self, name):
+        """As entries(): (level, message)."""
+        return [(each.level, each.message) for each in self.entries(name)]
+
+    def said(self, text):
+        """Whether any entry has had `text` in its message."""
+        return any(text in status.message for array in self._recorder.all() for status in array.status)
+
+    def wait_for(self, name, level, text):
+        """Until the newest entry of the name is of this level and contains the text."""
+        def says():
+            entry = self.entry(name)
+            return entry if entry and entry.level == level and text in entry.message else None
+        return wait_for(says, 'diagnostics of "%s" that say: %s' % (name, text))
+
+    def count(self, name, key):
+        """The value of a counter; 0 as long as it has not been published."""
+        status = self.entry(name)
+        values = {each.key: each.value for each in status.values} if status else {}
+        return int(values.get(key, 0))
+
+    def wait_for_count(self, name, key, more_than, publish=lambda: None):
+        """Publishes until the count has grown."""
+        def grown():
+            publish()
+            rospy.sleep(0.1)
+            return self.count(name, key) > more_than
+        wait_for(grown, '"%s" of %s above %d' % (key, name, more_than))
+
+    def wait_for_counts(self, name, key, items):
+        """`items`: pairs of a cause and what publishes a message with it. Each is counted under its cause; it is sent
+        again until then, as a queue of one message keeps only the newest."""
+        for cause, publish in items:
+            self.wait_for_count(name, key + ': ' + cause, self.count(name, key + ': ' + cause), publish)
+
+
+def ball(center, radius, velocity=(0.0, 0.0, 0.0)):
+    """Obstacle tracks with one ball that is at `center` now."""
+    track = ObstacleTrack(id=1)
+    for axis, p, v in zip('xyz', center, velocity):
+        setattr(track.center, axis, p)
+        setattr(track.velocity, axis, v)
+        setattr(track.radii, axis, radius)
+        setattr(track.exponents, axis, 2.0)
+    track.orientation.w = 1.0
+    message = ObstacleTrackArray(tracks=[track])
+    message.header.stamp = rospy.Time.now()
+    message.header.frame_id = 'map'
+    return message
+
+
 def odometry(stamp, position, velocity=(0, 0, 0), yaw=0.0, frame='map'):
     """An odometry message; `velocity` is written into the twist as it is."""
     message = Odometry()
@@ -210,6 +281,38 @@ class Fleet:
     def close(self):
         self._closed.set()
         self._thread.join()
+
+
+class TestClock:
+    """ROS time, with odometry of every vehicle at each step."""
+
+    def __init__(self, vehicles, begin, step, speed):
+        """Time does not go on before `runs` is set."""
+        self.vehicles = vehicles
+        self.now = begin  # [s]; may be set to let time jump
+        self.step = step  # [s]
+        self.speed = speed  # simulated over wall time
+        self.runs = threading.Event()
+        self.second = threading.Event()  # while it is set: another clock, a minute behind, goes on in turn with this one
+        self._publisher = rospy.Publisher('/clock', Clock, queue_size=1)
+        threading.Thread(target=self._run, daemon=True).start()
+
+    def _wait(self):
+        time.sleep(self.step / self.speed)
+
+    def _run(self):
+        while not rospy.is_shutdown():
+            self._wait()
+            if self.second.is_set():
+                self._publisher.publish(Clock(clock=rospy.Time.from_sec(self.now - 60.0)))
+                self._wait()
+            if not self.runs.is_set():
+                continue
+            self.now += self.step
+            stamp = rospy.Time.from_sec(self.now)
+            self._publisher.publish(Clock(clock=stamp))
+            for vehicle in self.vehicles:
+                vehicle.publish(stamp)
 
 
 def three_in_line():

@@ -10,12 +10,12 @@ import unittest
 
 import rospy
 import rostest
-from bad_input_harness import (MOST_CONSOLE_TEXT, TEN_MEGABYTES, Console, Diagnostics, RawBytes, flood, memory_of,
+from bad_input_harness import (MOST_CONSOLE_TEXT, TEN_MEGABYTES, Console, RawBytes, flood, memory_of,
                                process_of, processor_time_of, track_array)
 from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import Point, TransformStamped
 from nav_msgs.msg import Odometry
-from swarm_harness import Fleet, Planner, odometry, three_in_line, wait_for
+from swarm_harness import Diagnostics, Fleet, Planner, odometry, three_in_line, wait_for
 from swarm_planner.msg import ObstacleTrackArray, UavStatus
 from swarm_planner.srv import SetReference, SetReferenceRequest
 from tf2_msgs.msg import TFMessage

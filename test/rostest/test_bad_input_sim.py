@@ -9,10 +9,10 @@ import unittest
 
 import rospy
 import rostest
-from bad_input_harness import MOST_CONSOLE_TEXT, TEN_MEGABYTES, Console, Diagnostics, RawBytes, flood, process_of, track_array
+from bad_input_harness import MOST_CONSOLE_TEXT, TEN_MEGABYTES, Console, RawBytes, flood, process_of, track_array
 from geometry_msgs.msg import Transform, Twist
 from nav_msgs.msg import Odometry
-from swarm_harness import Planner, Recorder, wait_for
+from swarm_harness import Diagnostics, Planner, Recorder, wait_for
 from swarm_planner.msg import ObstacleTrackArray, PlannerStatus, UavStatus
 from trajectory_msgs.msg import MultiDOFJointTrajectory, MultiDOFJointTrajectoryPoint
 

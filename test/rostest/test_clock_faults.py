@@ -4,19 +4,15 @@
 that does not recover when ROS time goes on or has jumped."""
 
 import math
-import threading
 import time
 import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rosgraph_msgs.msg import Clock
-from swarm_harness import Planner, Recorder, three_in_line, wait_for
+from diagnostic_msgs.msg import DiagnosticStatus
+from swarm_harness import Diagnostics, Planner, TestClock, three_in_line, wait_for
 from swarm_planner.msg import UavStatus
 
-STEP = 0.02
-SPEED = 2.0
 SECOND_CLOCK = 'second source of /clock'
 
 
@@ -26,36 +22,12 @@ class ClockFaultsTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node('test_clock_faults')
         cls.planner = Planner()
-        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.diagnostics = Diagnostics()
         cls.vehicles = three_in_line()
-        cls.clock = rospy.Publisher('/clock', Clock, queue_size=1)
-        cls.now = 500.0
-        cls.runs = threading.Event()
-        cls.second_clock = threading.Event()
-        threading.Thread(target=cls.run_clock, daemon=True).start()
-
-    @classmethod
-    def run_clock(cls):
-        while not rospy.is_shutdown():
-            time.sleep(STEP / SPEED)
-            if cls.second_clock.is_set():
-                cls.clock.publish(Clock(clock=rospy.Time.from_sec(cls.now - 60.0)))
-                time.sleep(STEP / SPEED)
-            if not cls.runs.is_set():
-                continue
-            cls.now += STEP
-            stamp = rospy.Time.from_sec(cls.now)
-            cls.clock.publish(Clock(clock=stamp))
-            for vehicle in cls.vehicles:
-                vehicle.publish(stamp)
-
-    def health(self):
-        """What diagnostics said last of the cycle: (level, message)."""
-        return next(((each.level, each.message) for array in reversed(self.diagnostics.all())
-                     for each in array.status if each.name.endswith(': planning cycle')), (None, ''))
+        cls.clock = TestClock(cls.vehicles, begin=500.0, step=0.02, speed=2.0)
 
     def wait_for_health(self, level, text):
-        wait_for(lambda: self.health()[0] == level and text in self.health()[1], 'diagnostics that say: ' + text)
+        self.diagnostics.wait_for('planning cycle', level, text)
 
     def wait_for_tracking(self):
         wait_for(lambda: self.planner.status.last() and
@@ -64,31 +36,31 @@ class ClockFaultsTest(unittest.TestCase):
     def test_1_time_that_has_not_come_is_told(self):
         self.wait_for_health(DiagnosticStatus.ERROR, 'waiting for ROS time')
         self.assertEqual(self.planner.status.count(), 0, 'no cycles without time')
-        self.runs.set()
+        self.clock.runs.set()
         self.planner.wait_for_start()
         self.wait_for_tracking()
         self.wait_for_health(DiagnosticStatus.OK, 'planning')
 
     def test_2_time_that_stands_still_is_told_and_ends_without_a_jump(self):
-        self.runs.clear()
+        self.clock.runs.clear()
         time.sleep(0.3)
         cycles = self.planner.status.count()
         self.wait_for_health(DiagnosticStatus.ERROR, 'stood still')
         self.assertLessEqual(self.planner.status.count(), cycles + 1)
-        last = {vehicle.name: vehicle.state(rospy.Time.from_sec(self.now))[0] for vehicle in self.vehicles}
-        self.runs.set()
+        last = {vehicle.name: vehicle.state(rospy.Time.from_sec(self.clock.now))[0] for vehicle in self.vehicles}
+        self.clock.runs.set()
         self.wait_for_tracking()
         self.wait_for_health(DiagnosticStatus.OK, 'planning')
         for vehicle in self.vehicles:
             # 2 m/s: it goes on from where time stopped it.
-            self.assertLess(abs(vehicle.state(rospy.Time.from_sec(self.now))[0][1] - last[vehicle.name][1]), 0.5)
-            self.assertGreater(vehicle.state(rospy.Time.from_sec(self.now))[0][0], last[vehicle.name][0] - 0.1)
+            self.assertLess(abs(vehicle.state(rospy.Time.from_sec(self.clock.now))[0][1] - last[vehicle.name][1]), 0.5)
+            self.assertGreater(vehicle.state(rospy.Time.from_sec(self.clock.now))[0][0], last[vehicle.name][0] - 0.1)
 
     def jump(self, to):
         """ROS time jumps; returns the first status in which all UAVs track afterwards."""
-        before = rospy.Time.from_sec(self.now)
+        before = rospy.Time.from_sec(self.clock.now)
         self.planner.status.clear()
-        type(self).now = to
+        self.clock.now = to
         backwards = to < before.to_sec()
 
         def recovered():
@@ -98,15 +70,15 @@ class ClockFaultsTest(unittest.TestCase):
         return wait_for(recovered, 'tracking after a jump of time')
 
     def test_3_forward_jump(self):
-        status = self.jump(self.now + 60.0)
-        self.assertLess(status.header.stamp.to_sec(), self.now + 5.0)
+        status = self.jump(self.clock.now + 60.0)
+        self.assertLess(status.header.stamp.to_sec(), self.clock.now + 5.0)
 
     def test_4_backward_jump_in_flight_lets_targets_go_on_where_uavs_are(self):
         # The targets moved on by 120 m with the time; the vehicles follow and are well away from their starts.
-        wait_for(lambda: self.vehicles[0].state(rospy.Time.from_sec(self.now))[0][0] > 15.0, 'a flight of 15 m')
+        wait_for(lambda: self.vehicles[0].state(rospy.Time.from_sec(self.clock.now))[0][0] > 15.0, 'a flight of 15 m')
         for vehicle in self.vehicles:
             # They stay where they are: their trajectories are of a time that is not yet.
-            vehicle.start = vehicle.state(rospy.Time.from_sec(self.now))[0]
+            vehicle.start = vehicle.state(rospy.Time.from_sec(self.clock.now))[0]
         status = self.jump(100.0)
         self.assertLess(abs(status.time_zero.to_sec() - 100.0), 20.0, 'the run starts anew')
         for vehicle, uav in zip(self.vehicles, status.uavs):
@@ -116,15 +88,14 @@ class ClockFaultsTest(unittest.TestCase):
             for trajectory in vehicle.trajectories.wait_for_more(5):
                 self.assertLess(trajectory.header.stamp.to_sec(), 400.0, 'setpoints of another time')
         # The negative control of the next test: a jump or two are no second clock.
-        self.assertFalse(any(SECOND_CLOCK in entry.message for array in self.diagnostics.all()
-                             for entry in array.status))
+        self.assertFalse(self.diagnostics.said(SECOND_CLOCK))
 
     def test_5_two_clocks_are_told_and_end_without_a_trace(self):
         for vehicle in self.vehicles:
             vehicle.trajectories.clear()
-        self.second_clock.set()
+        self.clock.second.set()
         self.wait_for_health(DiagnosticStatus.ERROR, SECOND_CLOCK)
-        self.second_clock.clear()
+        self.clock.second.clear()
         self.wait_for_health(DiagnosticStatus.OK, 'planning')
         self.planner.status.clear()
         self.wait_for_tracking()

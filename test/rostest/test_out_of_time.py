@@ -3,15 +3,12 @@
 """Breaks for the user: vehicles that run out of setpoints because planning takes too long, or an operator who is not
 told that it does."""
 
-import threading
-import time
 import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rosgraph_msgs.msg import Clock
-from swarm_harness import Planner, Recorder, three_in_line, wait_for
+from diagnostic_msgs.msg import DiagnosticStatus
+from swarm_harness import Diagnostics, Planner, TestClock, three_in_line, wait_for
 from swarm_planner.msg import UavStatus
 
 NO_TIME = 'no time left to plan; the last plan goes on'
@@ -23,24 +20,10 @@ class OutOfTimeTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node('test_out_of_time')
         cls.planner = Planner()
-        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.diagnostics = Diagnostics()
         cls.vehicles = three_in_line()
-        cls.clock = rospy.Publisher('/clock', Clock, queue_size=1)
-        # Of simulated time, in which planning may take 0.6 ms of each cycle: enough for at least one UAV.
-        cls.speed = 1.0
-        threading.Thread(target=cls.run_clock, daemon=True).start()
-
-    @classmethod
-    def run_clock(cls):
-        now = 500.0
-        while not rospy.is_shutdown():
-            step = 0.1 if cls.speed > 1.0 else 0.02
-            now += step
-            stamp = rospy.Time.from_sec(now)
-            cls.clock.publish(Clock(clock=stamp))
-            for vehicle in cls.vehicles:
-                vehicle.publish(stamp)
-            time.sleep(step / cls.speed)
+        cls.clock = TestClock(cls.vehicles, begin=500.0, step=0.02, speed=1.0)
+        cls.clock.runs.set()
 
     def wait_until_all_have_tracked(self):
         """Each at some time: who misses its turn comes first in the next cycle."""
@@ -57,7 +40,9 @@ class OutOfTimeTest(unittest.TestCase):
         self.planner.wait_for_start()
         self.wait_until_all_have_tracked()
 
-        type(self).speed = 40.0
+        # Of simulated time, in which planning may take 0.6 ms of each cycle: enough for at least one UAV.
+        self.clock.step = 0.1
+        self.clock.speed = 40.0
         self.planner.status.clear()
         wait_for(lambda: len(self.out_of_time()) > 20, 'cycles without time to plan')
         for vehicle in self.vehicles:
@@ -72,11 +57,11 @@ class OutOfTimeTest(unittest.TestCase):
                 compared += 1
                 self.assertLessEqual({uav.name for uav in late}, plans[status.cycle])
         self.assertGreater(compared, 0)
-        wait_for(lambda: any('had no time to plan for every UAV' in entry.message
-                             and entry.level == DiagnosticStatus.WARN
-                             for array in self.diagnostics.all() for entry in array.status), 'a warning')
+        wait_for(lambda: any('had no time to plan for every UAV' in message and level == DiagnosticStatus.WARN
+                             for level, message in self.diagnostics.told('planning cycle')), 'a warning')
 
-        type(self).speed = 1.0
+        self.clock.step = 0.02
+        self.clock.speed = 1.0
         self.wait_until_all_have_tracked()
 
 

@@ -8,10 +8,10 @@ import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticStatus
 from nav_msgs.msg import Odometry
-from swarm_harness import Planner, Recorder, kill_node, wait_for
-from swarm_planner.msg import ObstacleTrack, ObstacleTrackArray, UavStatus
+from swarm_harness import Diagnostics, Planner, Recorder, ball, kill_node, wait_for
+from swarm_planner.msg import ObstacleTrackArray, UavStatus
 
 TRACK_TIMEOUT = 1.0  # [s]
 
@@ -22,26 +22,13 @@ class SourcesGoneTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node('test_sources_gone')
         cls.planner = Planner()
-        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.diagnostics = Diagnostics()
         cls.publisher = rospy.Publisher('obstacle_tracks', ObstacleTrackArray, queue_size=1)
         cls.planner.wait_for_start()
 
     def send_track(self):
         """A ball 10 m from uav1."""
-        track = ObstacleTrack(id=1)
-        track.center.x, track.center.z = 12.0, 30.0
-        for axis in 'xyz':
-            setattr(track.radii, axis, 2.0)
-            setattr(track.exponents, axis, 2.0)
-        track.orientation.w = 1.0
-        message = ObstacleTrackArray(tracks=[track])
-        message.header.stamp = rospy.Time.now()
-        message.header.frame_id = 'map'
-        self.publisher.publish(message)
-
-    def health(self, entry):
-        return next(((each.level, each.message) for array in reversed(self.diagnostics.all())
-                     for each in array.status if each.name.endswith(': ' + entry)), (None, ''))
+        self.publisher.publish(ball((12.0, 0.0, 30.0), 2.0))
 
     def test_tracker_falls_silent(self):
         def knows():
@@ -50,8 +37,8 @@ class SourcesGoneTest(unittest.TestCase):
 
         def is_told():
             self.send_track()
-            return self.health('obstacle tracks')[0] == DiagnosticStatus.OK and '1 obst' in self.health(
-                'obstacle tracks')[1]
+            entry = self.diagnostics.entry('obstacle tracks')
+            return entry and entry.level == DiagnosticStatus.OK and '1 obst' in entry.message
         wait_for(knows, 'an obstacle in the plans')
         wait_for(is_told, 'diagnostics that count it')
         silent = rospy.Time.now().to_sec()
@@ -60,8 +47,7 @@ class SourcesGoneTest(unittest.TestCase):
                    for uav in status.uavs if uav.name == 'uav1' and math.isfinite(uav.obstacle_clearance))
         self.assertGreater(last, silent + 0.5 * TRACK_TIMEOUT, 'it was forgotten at once')
         self.assertLess(last, silent + TRACK_TIMEOUT + 0.5)
-        wait_for(lambda: self.health('obstacle tracks')[0] == DiagnosticStatus.WARN and
-                 'forgotten' in self.health('obstacle tracks')[1], 'a warning')
+        self.diagnostics.wait_for('obstacle tracks', DiagnosticStatus.WARN, 'forgotten')
         self.planner.wait_for_uav('uav1', lambda uav: uav.state == UavStatus.TRACKING, 'a flight that goes on')
         # The negative control: there is a tracker again, and no warning.
         wait_for(is_told, 'diagnostics that are content')

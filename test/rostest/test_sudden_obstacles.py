@@ -7,9 +7,9 @@ import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from swarm_harness import Planner, Recorder, wait_for
-from swarm_planner.msg import ObstacleTrack, ObstacleTrackArray, UavStatus
+from diagnostic_msgs.msg import DiagnosticStatus
+from swarm_harness import Diagnostics, Planner, ball, wait_for
+from swarm_planner.msg import ObstacleTrackArray, UavStatus
 
 # Where uav1 of scenarios/hovering.yaml hovers [m].
 HOME = (0.0, 0.0, 30.0)
@@ -21,7 +21,7 @@ class SuddenObstaclesTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node('test_sudden_obstacles')
         cls.planner = Planner()
-        cls.diagnostics = Recorder('/diagnostics', DiagnosticArray)
+        cls.diagnostics = Diagnostics()
         cls.publisher = rospy.Publisher('obstacle_tracks', ObstacleTrackArray, queue_size=1)
         cls.planner.wait_for_start()
 
@@ -35,27 +35,11 @@ class SuddenObstaclesTest(unittest.TestCase):
         for name in ('uav1', 'uav2'):
             self.planner.wait_for_uav(name, lambda uav: uav.state == UavStatus.TRACKING and not uav.reason,
                                       'tracking')
-        wait_for(lambda: {level for name in ('uav1', 'uav2') for level, _ in self.told(name)[-1:]} ==
+        wait_for(lambda: {level for name in ('uav1', 'uav2') for level, _ in self.diagnostics.told(name)[-1:]} ==
                  {DiagnosticStatus.OK}, 'diagnostics without a complaint')
 
     def send(self, center, velocity, radius):
-        """Publishes a ball that is at `center` now."""
-        track = ObstacleTrack(id=1)
-        for axis, p, v in zip('xyz', center, velocity):
-            setattr(track.center, axis, p)
-            setattr(track.velocity, axis, v)
-            setattr(track.radii, axis, radius)
-            setattr(track.exponents, axis, 2.0)
-        track.orientation.w = 1.0
-        message = ObstacleTrackArray(tracks=[track])
-        message.header.stamp = rospy.Time.now()
-        message.header.frame_id = 'map'
-        self.publisher.publish(message)
-
-    def told(self, name):
-        """What diagnostics have said of an entry: (level, message)."""
-        return [(each.level, each.message) for array in self.diagnostics.all() for each in array.status
-                if each.name.endswith(': ' + name)]
+        self.publisher.publish(ball(center, radius, velocity))
 
     def check_alarm(self, send):
         """Calls `send` until there is an alarm for uav1, then until the operator has been told of it."""
@@ -73,7 +57,7 @@ class SuddenObstaclesTest(unittest.TestCase):
 
         def told():
             send()
-            return [message for level, message in self.told('uav1') if level == DiagnosticStatus.ERROR]
+            return [message for level, message in self.diagnostics.told('uav1') if level == DiagnosticStatus.ERROR]
         self.assertIn('no plan keeps all distances', wait_for(told, 'an error in the diagnostics')[0])
         self.assertGreater(self.planner.status.last().rejected_plans, rejected)
 
@@ -82,7 +66,7 @@ class SuddenObstaclesTest(unittest.TestCase):
         self.wait_for_calm()
         self.assertTrue(all(not uav.alarm for status in self.planner.status.all() for uav in status.uavs
                             if uav.name == 'uav2'), 'no danger for uav2')
-        self.assertEqual({level for level, _ in self.told('uav2')}, {DiagnosticStatus.OK})
+        self.assertEqual({level for level, _ in self.diagnostics.told('uav2')}, {DiagnosticStatus.OK})
 
     def test_alarm_for_an_obstacle_that_appears_on_top_of_a_uav(self):
         self.check_alarm(lambda: self.send(HOME, (0.0, 0.0, 0.0), 2.0))

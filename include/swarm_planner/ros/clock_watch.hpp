@@ -13,7 +13,7 @@ class ClockWatch {
   static constexpr double kPatience = 1.0;
   /// So many jumps back, with less than kCalm between them, are no accident.
   static constexpr int kMostJumps = 3;
-  static constexpr double kCalm = 5.0;   ///< [s] of wall time
+  static constexpr double kCalm = 5.0;  ///< [s] of wall time
 
   /// `now`: ROS time, zero if it has not come yet; `wall`: a clock that never stands still [s].
   void note(double now, double wall);
@@ -24,7 +24,7 @@ class ClockWatch {
 
  private:
   double now_ = -1.0;
-  double since_ = 0.0;  ///< wall time at which `now_` was first seen [s]
+  double since_ = 0.0;      ///< wall time at which `now_` was first seen [s]
   int jumps_ = 0;           ///< back, with less than kCalm between them
   double last_jump_ = 0.0;  ///< wall time [s]
   std::string fault_;

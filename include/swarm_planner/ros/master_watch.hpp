@@ -12,8 +12,8 @@ namespace swarm_planner {
 /// Registers this node again with a ROS master that has been started anew and so knows nothing of it; roscpp does not.
 /// Then services can be called and topics be found as before. Connections that are open stay open.
 ///
-/// Not registered are subscriptions to topics that have several publishers, as /tf: the new master would sooner or later
-/// tell only those of them that it knows, and roscpp cuts the connections to all others.
+/// Not registered are subscriptions to topics that have several publishers, as /tf: the new master would sooner or
+/// later tell only those of them that it knows, and roscpp cuts the connections to all others.
 ///
 /// Has a thread of its own, as a call of the master takes as long as the network wants.
 class MasterWatch {

@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <sstream>
 
+#include "canonical_text.hpp"
 #include "description_reader.hpp"
 
 namespace swarm_planner {
@@ -54,7 +54,7 @@ class SparseReader : private DescriptionReader {
     out_.max_iterations = integer(root["limits"], "limits.", "iterations", 1, 60);
     out_.instruction_sets = readInstructionSets(root["instruction_sets"]);
     throwFaults();
-    out_.hash = fnv1a(canonicalText());
+    out_.hash = fnv1a(canonicalText(out_));
     return out_;
   }
 
@@ -356,39 +356,6 @@ class SparseReader : private DescriptionReader {
         return;
       }
     }
-  }
-
-  static void append(std::ostringstream& text, const char* key, const SparseMatrix& m) {
-    text << key << m.rows << 'x' << m.columns;
-    for (const SparseEntry& e : m.entries) {
-      text << ',' << e.row << ' ' << e.column << ' ' << (e.datum.varies ? "varies" : e.datum.value.code());
-    }
-    text << ';';
-  }
-
-  static void append(std::ostringstream& text, const char* key, const std::vector<Datum>& v) {
-    text << key;
-    for (const Datum& d : v) text << ',' << (d.varies ? "varies" : d.value.code());
-    text << ';';
-  }
-
-  /// Everything that decides what the generated code computes, independent of spelling in the file.
-  std::string canonicalText() const {
-    std::ostringstream text;
-    text << out_.name << ';' << out_.variables << ';' << out_.equalities << ';' << out_.max_iterations << ';';
-    for (const auto& p : out_.parameters) text << p.first << '=' << toCode(p.second) << ';';
-    for (const Group& g : out_.variable_groups) text << g.name << g.first << ',' << g.count << ';';
-    for (const Group& g : out_.row_groups) text << g.name << g.first << ',' << g.count << ';';
-    append(text, "H", out_.hessian);
-    append(text, "A", out_.matrix);
-    append(text, "g", out_.linear);
-    append(text, "lower", out_.lower);
-    append(text, "upper", out_.upper);
-    append(text, "row_lower", out_.row_lower);
-    append(text, "row_upper", out_.row_upper);
-    for (const Penalty& p : out_.penalties) text << p.name << p.linear.code() << '/' << p.quadratic.code() << ';';
-    for (const int penalty : out_.row_penalty) text << penalty << ',';
-    return text.str();
   }
 
   SparseDescription out_;
