@@ -7,6 +7,7 @@ namespace swarm_planner {
 
 void ClockWatch::note(double now, double wall) {
   if (now != now_) {
+    if (now < now_) noteJumpBack(wall);
     now_ = now;
     since_ = wall;
   }

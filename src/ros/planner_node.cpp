@@ -19,6 +19,8 @@
 namespace swarm_planner {
 namespace {
 
+// ROS time that goes back by less is waited for [s].
+constexpr double kLeastTimeJump = 1.0;
 // Between two messages about answers to services: a new reference for every UAV of a swarm is not news for each [s].
 constexpr double kServicePeriod = 0.1;
 // Names in one message.
@@ -88,7 +90,11 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
 
 void PlannerNode::runCycle(const ros::TimerEvent& event) {
   const double now = toSeconds(ros::Time::now());
-  if (now < last_now_) resetAfterTimeJump(now);
+  if (now < last_now_) {
+    // A clock that trembles, or a second one that repeats the first: what is asked for until it has caught up is planned.
+    if (now > last_now_ - kLeastTimeJump) return;
+    resetAfterTimeJump(now);
+  }
   last_now_ = now;
   if (!has_cycled_) takeOver(now);
   has_cycled_ = true;

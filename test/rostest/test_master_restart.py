@@ -88,8 +88,8 @@ class MasterRestartTest(unittest.TestCase):
         self.check_flight(4.0)
 
         def others(names):
-            return {name for name in names if name != control.resolved_name and 'test_master_restart' not in name}
-        wait_for(lambda: all(others(old) <= new for old, new in zip(before, self.registered())),
+            return {name for name in names if name != control.resolved_name and rospy.get_name() not in name}
+        wait_for(lambda: not any(others(old) - new for old, new in zip(before, self.registered())),
                  'nodes that register again')
         # The negative control: this node has no MasterWatch, and ROS 1 does not do it.
         self.assertNotIn(control.resolved_name, self.registered()[0])
