@@ -34,10 +34,12 @@ class ParameterFaultsTest(unittest.TestCase):
     def test_planner_tells_every_fault_at_once(self):
         status, output = run('planner_node', 'faulty_planner', {
             'scenario': self.scenario, 'max_sped': 5.0, 'uav_radius': -1.0, 'setpoint_dt': 'fast', 'alpha': [1, 2],
-            'odometry_twist_frame': 'sideways', 'odometry_topic': '/odometry'})
+            'odometry_twist_frame': 'sideways', 'odometry_topic': '/odometry', 'max_speed': float('nan'),
+            'marker_rate': float('inf'), 'autostart': 'perhaps'})
         self.assertEqual(status, 1, output)
         for part in ('max_sped', 'uav_radius', 'setpoint_dt: has the wrong type, expected a number', 'alpha: is a list',
-                     'odometry_twist_frame', 'expected body or world', 'expected a topic with {uav}'):
+                     'odometry_twist_frame', 'expected body or world', 'expected a topic with {uav}', 'max_speed',
+                     'marker_rate: is inf', 'autostart'):
             self.assertIn(part, output)
 
     def test_missing_scenario_is_told(self):
