@@ -9,6 +9,10 @@
 namespace swarm_planner {
 namespace codegen {
 
+/// Compiler flags for programs that are run a few times: compiling takes longer than all they do, and the arithmetic is
+/// the same for every level of optimisation.
+constexpr char kQuickBuild[] = "-O0";
+
 /// Generated code and a small driver around it, compiled as a user would who has only a C compiler, in a folder of
 /// their own.
 class CompiledProgram {

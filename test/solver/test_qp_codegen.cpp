@@ -63,7 +63,7 @@ TEST(QpCodegen, RandomStructuresReachTheKnownOptimum) {
     const std::string text = randomDescription(random, i);
     SCOPED_TRACE(text);
     const Description description = parseDescription(text);
-    const GeneratedProgram program(description, "-O0");
+    const GeneratedProgram program(description, kQuickBuild);
     expectOptimal(program, makeProblems(description, 40, {}, random), kExact, kWithinGap);
   }
 }
@@ -76,7 +76,7 @@ TEST(QpCodegen, DuplicateAndOpposedRowsDoNotMislead) {
     const std::string text = randomDescription(random, i);
     SCOPED_TRACE(text);
     const Description description = parseDescription(text);
-    const GeneratedProgram program(description, "-O0");
+    const GeneratedProgram program(description, kQuickBuild);
     expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinGap);
   }
 }
@@ -89,7 +89,7 @@ TEST(QpCodegen, QuadraticTermsTakePartInTheOptimum) {
     const std::string text = randomDescription(random, i);
     SCOPED_TRACE(text);
     const Description description = parseDescription(text);
-    const GeneratedProgram program(description, "-O0");
+    const GeneratedProgram program(description, kQuickBuild);
     expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinGap);
     // Without rows as well: then they are all that the second method has to balance.
     options.active = options.inactive = 0;
@@ -116,7 +116,7 @@ TEST(QpCodegen, TheSecondMethodAnswersWhereTheFirstMeetsItsCap) {
     const std::string text = randomDescription(random, i);
     SCOPED_TRACE(text);
     const Description description = withLeastCaps(text);
-    const GeneratedProgram program(description, "-O0");
+    const GeneratedProgram program(description, kQuickBuild);
     const std::vector<KnownProblem> problems = makeProblems(description, 40, options, random);
     expectOptimal(program, problems, kWithinDigits, kWithinDigits);
     for (const auto& of_problem : program.solve(dataOf(problems))) {
@@ -140,7 +140,7 @@ TEST(QpCodegen, HardRowsThatPinTheInputsAreFollowed) {
     const std::string text = randomDescription(random, i);
     SCOPED_TRACE(text);
     const Description description = parseDescription(text);
-    const GeneratedProgram program(description, "-O0");
+    const GeneratedProgram program(description, kQuickBuild);
     expectOptimal(program, makeProblems(description, 40, options, random), kExact, kWithinDigits);
   }
 }
@@ -154,7 +154,7 @@ TEST(QpCodegen, RowsOfAnyScaleAreKept) {
       const std::string text = randomDescription(random, i, scale);
       SCOPED_TRACE(text);
       const Description description = parseDescription(text);
-      const GeneratedProgram program(description, "-O0");
+      const GeneratedProgram program(description, kQuickBuild);
       expectOptimal(program, makeProblems(description, 20, options, random), 1e-7, kWithinGap);
     }
   }
@@ -174,7 +174,7 @@ TEST(QpCodegen, EveryCompilerTakesTheSourceWithoutAWarning) {
   Random random(10);
   int found = 0;
   for (int i = 0; i < 2; ++i) {
-    const GeneratedProgram program(parseDescription(randomDescription(random, i)), "-O0");
+    const GeneratedProgram program(parseDescription(randomDescription(random, i)), kQuickBuild);
     for (const std::string compiler : {"gcc", "clang", "aarch64-linux-gnu-gcc"}) {
       if (std::system(("command -v " + compiler + " >/dev/null").c_str()) != 0) continue;
       ++found;
