@@ -91,7 +91,8 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
 void PlannerNode::runCycle(const ros::TimerEvent& event) {
   const double now = toSeconds(ros::Time::now());
   if (now < last_now_) {
-    // A clock that trembles, or a second one that repeats the first: what is asked for until it has caught up is planned.
+    // A clock that trembles, or a second one that repeats the first: what is asked for until it has caught up is
+    // planned.
     if (now > last_now_ - kLeastTimeJump) return;
     resetAfterTimeJump(now);
   }

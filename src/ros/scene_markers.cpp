@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "swarm_planner/ros/geometry_conversion.hpp"
@@ -86,6 +87,7 @@ SceneMarkers::SceneMarkers(std::string frame, const MarkerSizes& sizes)
 void SceneMarkers::begin(const ros::Time& stamp) {
   stamp_ = stamp;
   message_.markers.clear();
+  labels_top_ = -std::numeric_limits<double>::infinity();
 }
 
 visualization_msgs::Marker& SceneMarkers::add(const char* ns, int id, int type) {
@@ -123,6 +125,7 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
     const auto breaks = static_cast<double>(std::count(label.text.begin(), label.text.end(), '\n'));
     label.pose.position = toPoint(uav.position + (sizes_.uav + 0.5 * breaks * label.scale.z) * Vector3::UnitZ());
     label.color = textColor(uav.concern);
+    labels_top_ = std::max(labels_top_, label.pose.position.z + 0.5 * (breaks + 1.0) * label.scale.z);
   }
   if (uav.trail.size() > 1) {
     Marker& trail = add("trail", index, Marker::LINE_STRIP);
@@ -196,6 +199,7 @@ void SceneMarkers::addStatus(const Vector3& position, const std::string& text, C
   Marker& line = add("status", 0, Marker::TEXT_VIEW_FACING);
   line.pose.position = toPoint(position);
   line.scale.z = sizes_.text;
+  line.pose.position.z = std::max(position.z(), labels_top_ + line.scale.z);
   line.text = text;
   line.color = textColor(concern);
 }

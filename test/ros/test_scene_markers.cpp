@@ -41,6 +41,12 @@ class SceneMarkersTest : public ::testing::Test {
     markers_.addUav(0, uav);
     return find(ns);
   }
+  Marker statusAfter(const UavDrawing& uav, const Vector3& position) {
+    markers_.begin(ros::Time(10.0));
+    markers_.addUav(0, uav);
+    markers_.addStatus(position, "t", Concern::kAlarm);
+    return find("status");
+  }
   Marker drawnStatus(Concern concern) {
     markers_.begin(ros::Time(10.0));
     markers_.addStatus(Vector3::Zero(), "t", concern);
@@ -92,6 +98,21 @@ TEST_F(SceneMarkersTest, LongNotesAreBrokenIntoLinesThatKeepEveryWord) {
   EXPECT_EQ(joined, "uav1: " + uav.note);
   uav.note = "/a_namespace/that_goes_on_and_on/without_any_blank/odometry is silent";
   EXPECT_EQ(drawn(uav, "label").text, "uav1:\n/a_namespace/that_goes_on_and_on/without_any_blank/odometry\nis silent");
+}
+
+TEST_F(SceneMarkersTest, TheStatusLineLiesOverNoLabel) {
+  UavDrawing uav = drawingOf(Concern::kAlarm);
+  uav.note = "no plan keeps all distances (too close to an obstacle); flying the least violating one";
+  uav.position = Vector3(0.0, 0.0, 30.0);
+  const Marker label = drawn(uav, "label");
+  const auto lines = 1.0 + static_cast<double>(std::count(label.text.begin(), label.text.end(), '\n'));
+  EXPECT_GT(lines, 2.0);
+  const Marker above = statusAfter(uav, Vector3(0.0, 0.0, 31.0));
+  EXPECT_GE(above.pose.position.z - 0.5 * above.scale.z, label.pose.position.z + 0.5 * lines * label.scale.z);
+  // Where there is room it stays where it was put, also when the UAV has come down again.
+  EXPECT_EQ(statusAfter(uav, Vector3(0.0, 0.0, 60.0)).pose.position.z, 60.0);
+  uav.position.z() = 10.0;
+  EXPECT_EQ(statusAfter(uav, Vector3(0.0, 0.0, 31.0)).pose.position.z, 31.0);
 }
 
 TEST_F(SceneMarkersTest, MotionIsDrawnToItsPlaceOfRest) {

@@ -53,7 +53,7 @@ class SceneMarkers {
   /// Surface, and an arrow of four seconds' way if it moves. `now` [s]: where it has moved to.
   void addObstacle(const TrackedObstacle& obstacle, double now);
   void removeObstacle(int id);
-  /// `concern`: the greatest of all UAVs.
+  /// At `position`, or as far above it as the labels drawn since begin() demand. `concern`: the greatest of all UAVs.
   void addStatus(const Vector3& position, const std::string& text, Concern concern);
   void removeAll();
 
@@ -68,6 +68,7 @@ class SceneMarkers {
   const MarkerSizes sizes_;
   const std::vector<geometry_msgs::Point> uav_mesh_;
   ros::Time stamp_;
+  double labels_top_ = 0.0;  ///< no label reaches above this height [m]
   visualization_msgs::MarkerArray message_;
 };
 
