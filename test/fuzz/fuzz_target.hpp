@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,26 @@ namespace swarm_planner {
 
 /// Inputs to begin with, for mutation: valid ones that reach far into the code.
 std::vector<std::string> fuzzSeeds();
+
+/// Eleven seeds of any bytes, seed i `shortest` + i `longer` bytes long, always the same for a `stream`.
+inline std::vector<std::string> seedsOfBytes(std::size_t shortest, std::size_t longer, unsigned stream) {
+  std::vector<std::string> seeds;
+  for (unsigned seed = 1; seed < 12; ++seed) {
+    std::string bytes(shortest + longer * seed, '\0');
+    unsigned state = stream * seed;
+    for (char& each : bytes) each = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24);
+    seeds.push_back(bytes);
+  }
+  return seeds;
+}
+
+/// A shipped file, for a seed.
+inline std::string textOf(const std::string& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
 
 /// Ends the program if a promise to the user is broken; in all builds, unlike assert.
 #define FUZZ_CHECK(condition)                                                                 \

@@ -53,10 +53,7 @@ void resolve(const ParameterMap& given) {
 std::vector<std::string> fuzzSeeds() {
   std::vector<std::string> seeds;
   for (const char* name : {"planner", "simulation"}) {
-    std::ifstream file(std::string("config/") + name + ".yaml");
-    std::ostringstream text;
-    text << 'F' << file.rdbuf();
-    seeds.push_back(text.str());
+    seeds.push_back('F' + textOf(std::string("config/") + name + ".yaml"));
   }
   seeds.push_back(std::string("M\x03\x05\x00\x01\x02\x03\x04\x05\x06\x07\x08\x09\x0a\x0b\x0c\x0d\x0e", 18));
   seeds.push_back("F{max_speed: 3.0, autostart: false}");

@@ -3,8 +3,6 @@
 // Breaks for the user: a scenario file that ends the node with a crash instead of a list of faults, or one that is
 // accepted and means something else when it is written and read again.
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "fuzz_target.hpp"
 #include "swarm_planner/swarm/mission.hpp"
@@ -33,10 +31,7 @@ overrides: {max_speed: 2.0, uav_radius: 0.2, pair_distance: 0.6, max_acceleratio
 std::vector<std::string> fuzzSeeds() {
   std::vector<std::string> seeds{kEveryKey, "end: {target_x: 1}", "end: {duration: 3}"};
   for (const char* name : {"crossing", "paper_six"}) {
-    std::ifstream file(std::string("config/scenarios/") + name + ".yaml");
-    std::ostringstream text;
-    text << file.rdbuf();
-    seeds.push_back(text.str());
+    seeds.push_back(textOf(std::string("config/scenarios/") + name + ".yaml"));
   }
   return seeds;
 }

@@ -31,16 +31,7 @@ bool isFinite(const MotionSetpoint& x) {
 
 }  // namespace
 
-std::vector<std::string> fuzzSeeds() {
-  std::vector<std::string> seeds;
-  for (unsigned seed = 1; seed < 12; ++seed) {
-    std::string bytes(300 + 50 * seed, '\0');
-    unsigned state = 77 * seed;
-    for (char& each : bytes) each = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24);
-    seeds.push_back(bytes);
-  }
-  return seeds;
-}
+std::vector<std::string> fuzzSeeds() { return seedsOfBytes(300, 50, 77); }
 
 }  // namespace swarm_planner
 

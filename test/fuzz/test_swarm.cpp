@@ -150,13 +150,8 @@ class Flight {
 }  // namespace
 
 std::vector<std::string> fuzzSeeds() {
-  std::vector<std::string> seeds{std::string(400, '\0')};  // a flight without faults
-  for (unsigned seed = 1; seed < 12; ++seed) {
-    std::string bytes(500 + 100 * seed, '\0');
-    unsigned state = 991 * seed;
-    for (char& each : bytes) each = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24);
-    seeds.push_back(bytes);
-  }
+  std::vector<std::string> seeds = seedsOfBytes(500, 100, 991);
+  seeds.insert(seeds.begin(), std::string(400, '\0'));  // a flight without faults
   return seeds;
 }
 

@@ -71,16 +71,7 @@ void checkUsable(const TrackMemory& memory, double now) {
 
 }  // namespace
 
-std::vector<std::string> fuzzSeeds() {
-  std::vector<std::string> seeds;
-  for (unsigned seed = 1; seed < 12; ++seed) {
-    std::string bytes(400 + 40 * seed, '\0');
-    unsigned state = seed;
-    for (char& each : bytes) each = static_cast<char>((state = state * 1664525U + 1013904223U) >> 24);
-    seeds.push_back(bytes);
-  }
-  return seeds;
-}
+std::vector<std::string> fuzzSeeds() { return seedsOfBytes(400, 40, 1); }
 
 }  // namespace swarm_planner
 
