@@ -81,6 +81,8 @@ const char* reasonText(Reason reason) {
       return "stopped by command";
     case Reason::kTakingOver:
       return "in flight when the planner started; its last trajectory goes on until all inputs are known";
+    case Reason::kNotFollowing:
+      return "does not follow its setpoints; planned from where it is";
   }
   return "unknown reason";
 }

@@ -223,8 +223,8 @@ class SwarmPlanner::Impl {
     }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if ((uavs[i].unseen || uavs[i].last_place) && !uavs[i].motions.empty()) {
-        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
+      if ((uavs[i].unseen || uavs[i].aside) && !uavs[i].motions.empty()) {
+        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].aside ? &*uavs[i].aside : nullptr);
       }
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);

@@ -257,6 +257,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
   if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
+  if (on_new_plan && record.following.isNotFollowing()) report.reason = Reason::kNotFollowing;
   if (on_new_plan && record.off_plan) {
     report.reason = Reason::kOffPlan;
     report.deviation = record.off_plan_distance;

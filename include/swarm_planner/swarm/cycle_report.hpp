@@ -48,7 +48,8 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
-  kTakingOver,  ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kTakingOver,    ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kNotFollowing,  ///< the vehicle does not do what it is told; planned for from where it is
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);

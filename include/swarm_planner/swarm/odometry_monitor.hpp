@@ -51,6 +51,8 @@ class OdometryMonitor {
   bool follows(const UavMeasurement& measurement, const Parameters& parameters);
   /// Whether a doubted UAV is again where it is to be.
   bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters) const;
+  /// Whether it stands where its motion has led since it was believed last.
+  bool standsOnWay(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input) const;
   void trust(const UavMeasurement& measurement, const MotionMemory& motions);
   bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
 
@@ -66,6 +68,7 @@ class OdometryMonitor {
   std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
+  bool source_changed_ = false;            ///< between two doubted ones, once
   Reason fault_ = Reason::kNone;           ///< why they are doubted
   std::optional<double> off_plan_since_;   ///< [s]
 };
