@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "swarm_planner/swarm/following_watch.hpp"
+
 namespace swarm_planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// So long after its end nothing about a fault is looked at any more, but for recovery [s].
-constexpr double kAftermath = std::max(FaultWatch::kReportTime, FaultWatch::kStrayTime);
 
 std::size_t indexOf(const std::string& name, const std::vector<ScenarioUav>& uavs) {
   const auto found = std::find_if(uavs.begin(), uavs.end(), [&](const ScenarioUav& uav) { return uav.name == name; });
@@ -53,10 +53,12 @@ void FaultWatch::onSample(double t, const std::vector<QuadSimulator>& vehicles, 
     if (record.uav < vehicles.size()) record.place = vehicles[record.uav].state().p;
     begin(record);
   }
-  while (finished_ < begun_ && t > records_[finished_].end + kAftermath) ++finished_;
+  while (finished_ < begun_ && t > records_[finished_].end + kReportTime) ++finished_;
+  for (std::size_t i = 0; i < uavs_.size(); ++i) uavs_[i].state = vehicles[i].state();
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
-    if (record.uav < vehicles.size() && t <= record.end + kStrayTime) watchVehicle(record, t, vehicles[record.uav]);
+    if (record.uav >= vehicles.size() || t > record.end - twoCycles()) continue;
+    record.moved = std::max(record.moved, (vehicles[record.uav].state().p - record.place).norm());
   }
 }
 
@@ -74,26 +76,29 @@ void FaultWatch::begin(Record& record) {
   }
 }
 
-void FaultWatch::watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const {
-  if (t <= record.end - twoCycles()) record.moved = std::max(record.moved, (vehicle.state().p - record.place).norm());
+/// What a cycle at `now` finds: the vehicle is to fly what the one before has made.
+void FaultWatch::watchVehicle(Record& record, double now) const {
   const Uav& uav = uavs_[record.uav];
-  const bool next_flies = uav.has_next && t >= uav.next.epoch();
-  if (!next_flies && !uav.has_due) return;
-  const Vector3 due = (next_flies ? uav.next : uav.due).at(t).p;
-  const bool strays = (vehicle.state().p - due).norm() > 2.0 * parameters_.limits.tracking_margin;
-  if (strays && !record.strays) record.strayed_since = t;
-  if (strays) record.strayed_for = std::max(record.strayed_for, t - record.strayed_since);
-  record.strays = strays;
+  if (now < record.fault.at || now > record.end + twoCycles() || !uav.has_due || now < uav.due.epoch()) {
+    record.strays = 0;
+    return;
+  }
+  const KinematicState due = uav.due.at(now);
+  const double excess = FollowingWatch::excess(uav.state.p - due.p, uav.state.v - due.v, parameters_.input);
+  record.strays = excess > 1.0 ? record.strays + 1 : 0;
+  record.strayed = std::max(record.strayed, record.strays);
 }
 
 void FaultWatch::onCycle(double epoch, const CycleReport& report) {
   const double now = epoch - parameters_.time.cycle_period;
+  for (std::size_t i = finished_; i < begun_; ++i) {
+    if (records_[i].uav < uavs_.size()) watchVehicle(records_[i], now);
+  }
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
     Uav& uav = uavs_[i];
-    uav.due = uav.next;
-    uav.has_due = uav.has_next;
-    uav.has_next = report.uavs[i].planned;
-    if (uav.has_next) uav.next = planner_.committed(i);
+    // A motion made before the planner died says nothing about the vehicle once there is a new one.
+    uav.has_due = report.uavs[i].planned;
+    if (uav.has_due) uav.due = planner_.committed(i);
     uav.tracks = report.uavs[i].state == UavState::kTracking;
     if (uav.waiting && uav.tracks && now >= uav.clear_at) recover(i, epoch);
   }
@@ -144,7 +149,7 @@ bool FaultWatch::isNoticeable(const Record& record) const {
     case FaultKind::kSetpointsIgnored:
     case FaultKind::kPush:
     case FaultKind::kWind:
-      return record.strayed_for > kStrayTime;
+      return record.strayed >= kStrayCycles;
     default:
       return false;
   }

@@ -7,10 +7,8 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kPositionNoises = 4.0;  // odometry_noise by which a vehicle may be off its motion
-constexpr double kVelocityNoises = 2.0;  // the same of the way that its velocity is off by in tracking_time
-constexpr double kLeastNoise = 0.05;     // tracking is not perfect [m]
-constexpr double kOnMotion = 0.5;        // of both, with which it is taken to be on its motion
+constexpr double kLeastNoise = 0.05;  // tracking is not perfect [m]
+constexpr double kOnMotion = 0.5;     // of what is allowed, with which it is taken to be on its motion
 
 double noiseOf(const InputParameters& input) { return std::max(input.odometry_noise, kLeastNoise); }
 
@@ -23,8 +21,8 @@ struct Deviation {
 Deviation deviationFrom(const KinematicState& expected, const UavMeasurement& measurement,
                         const InputParameters& input) {
   const Vector3 dp = measurement.p - expected.p;
-  const Vector3 way = input.tracking_time * (measurement.v - expected.v);
-  return {std::max(dp.norm() / kPositionNoises, way.norm() / kVelocityNoises) / noiseOf(input), dp + way};
+  const Vector3 dv = measurement.v - expected.v;
+  return {FollowingWatch::excess(dp, dv, input), dp + input.tracking_time * dv};
 }
 
 /// From the nearest of the motions that it may be flying; empty if none reaches back so far.
@@ -43,9 +41,16 @@ std::optional<Deviation> leastDeviation(const UavMeasurement& measurement, const
 
 }  // namespace
 
-void FollowingWatch::note(const UavMeasurement& measurement, const MotionMemory& motions,
+double FollowingWatch::excess(const Vector3& dp, const Vector3& dv, const InputParameters& input) {
+  const double way = input.tracking_time * dv.norm();
+  return std::max(dp.norm() / kPositionNoises, way / kVelocityNoises) / noiseOf(input);
+}
+
+void FollowingWatch::note(const UavMeasurement& given, const Vector3& drift, const MotionMemory& motions,
                           const InputParameters& input) {
-  if (measurement.stamp == stamp_) return;
+  if (given.stamp == stamp_) return;
+  UavMeasurement measurement = given;
+  measurement.p -= drift;
   stamp_ = measurement.stamp;
   const std::optional<Deviation> deviation = leastDeviation(measurement, motions, input);
   const bool was_off = is_off_;

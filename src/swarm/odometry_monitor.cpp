@@ -78,6 +78,8 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     trust(measurement, motions);
     return Reason::kNone;
   }
+  // A drift has been there for a while before it showed: so far it is not the UAV that is off its motion.
+  if (!doubted_ && fault_ == Reason::kOdometryDrifts) trusted_off_ -= drift_;
   if (!doubted_ || !isReachable(*doubted_, measurement, parameters)) doubted_since_ = measurement.stamp;
   doubted_ = measurement;
   if (measurement.stamp - doubted_since_ < parameters.input.relocalisation_time) return fault_;

@@ -44,7 +44,7 @@ void UavRecord::reset() {
   on_reference = false;
   active.count = 0;
   monitor = OdometryMonitor();
-  unseen = false;
+  unseen = evades = false;
   following.reset();
   aside.reset();
 }
@@ -57,9 +57,11 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
   deviation += kDeviationGain * (measured - deviation);
   const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
   const bool is_back = unseen;
-  unseen = false;
+  unseen = evades = false;
   aside.reset();
-  if (parameters.limits.latency_compensation) following.note(measurement, motions, parameters.input);
+  if (parameters.limits.latency_compensation) {
+    following.note(measurement, monitor.drift(), motions, parameters.input);
+  }
   const KinematicState seen = predictFromMeasurement(measurement, epoch);
   if (following.isSuspected()) setAside(seen, epoch, parameters, bounds);
   off_plan = monitor.noteDeviation(measured.norm(), measurement.stamp, parameters.input);

@@ -19,8 +19,16 @@ namespace swarm_planner {
 ///    stands where it is to stand may hover on its own. Nobody is told of that any more after odometry_doubt_time.
 class FollowingWatch {
  public:
-  /// A measurement that can be planned from. `motions`: what the UAV is to fly.
-  void note(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
+  static constexpr double kPositionNoises = 4.0;  ///< odometry_noise by which a vehicle may be off its motion
+  /// The same, by which it may be off by the way that its velocity's deviation makes in tracking_time.
+  static constexpr double kVelocityNoises = 2.0;
+  /// Deviations `dp` [m] and `dv` [m/s] over the most that noise and tracking explain.
+  static double excess(const Vector3& dp, const Vector3& dv, const InputParameters& input);
+
+  /// A measurement that can be planned from. `drift`: how far its position is off the way that the velocities tell [m]:
+  /// so much is the odometry's doing, not the vehicle's. `motions`: what the UAV is to fly.
+  void note(const UavMeasurement& measurement, const Vector3& drift, const MotionMemory& motions,
+            const InputParameters& input);
   /// It is known anew what the vehicle flies.
   void reset() { *this = FollowingWatch(); }
 

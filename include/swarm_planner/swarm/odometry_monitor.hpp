@@ -44,6 +44,8 @@ class OdometryMonitor {
 
   /// The last measurement that could be planned from; empty if there has been none.
   const std::optional<UavMeasurement>& trusted() const { return trusted_; }
+  /// By how much positions have left the way that the velocities tell, in the last seconds up to that one [m].
+  const Vector3& drift() const { return drift_; }
 
  private:
   Reason compare(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);

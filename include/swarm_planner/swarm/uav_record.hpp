@@ -40,6 +40,7 @@ struct UavRecord {
   FollowingWatch following;
   /// A stop from where it was seen last, which it may fly instead of its motion: it was not on that.
   std::optional<CommittedMotion> aside;
+  bool evades = false;                ///< it has a new motion since it was seen last
   bool off_plan = false;              ///< planned for anew in this cycle: it was far off its motion for long
   double off_plan_distance = 0.0;     ///< so far [m]
 
