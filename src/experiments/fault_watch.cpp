@@ -84,8 +84,13 @@ void FaultWatch::watchVehicle(Record& record, double now) const {
     return;
   }
   const KinematicState due = uav.due.at(now);
-  const double excess = FollowingWatch::excess(uav.state.p - due.p, uav.state.v - due.v, parameters_.input);
-  record.strays = excess > 1.0 ? record.strays + 1 : 0;
+  const Vector3 dp = uav.state.p - due.p;
+  const Vector3 dv = uav.state.v - due.v;
+  const Vector3 side = dp + parameters_.input.tracking_time * dv;
+  const bool is_off = FollowingWatch::excess(dp, dv, parameters_.input) > 1.0;
+  const bool same_side = record.strays > 0 && side.dot(record.side) > 0.0;
+  record.strays = !is_off ? 0 : same_side ? record.strays + 1 : 1;
+  record.side = side;
   record.strayed = std::max(record.strayed, record.strays);
 }
 
@@ -100,7 +105,12 @@ void FaultWatch::onCycle(double epoch, const CycleReport& report) {
     uav.has_due = report.uavs[i].planned;
     if (uav.has_due) uav.due = planner_.committed(i);
     uav.tracks = report.uavs[i].state == UavState::kTracking;
-    if (uav.waiting && uav.tracks && now >= uav.clear_at) recover(i, epoch);
+    // That would be so without any fault, too.
+    const bool waits = report.uavs[i].reason == Reason::kPlanRefused && report.uavs[i].planned &&
+                       report.uavs[i].refusal == CheckReason::kRestingPlace;
+    if (!uav.waiting || !(uav.tracks || waits) || now < uav.clear_at) continue;
+    if (!uav.tracks) ++waited_;
+    recover(i, epoch);
   }
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
@@ -157,6 +167,7 @@ bool FaultWatch::isNoticeable(const Record& record) const {
 
 FaultSummary FaultWatch::summary() const {
   FaultSummary summary;
+  summary.waited = waited_;
   for (const FaultKindInfo& info : faultKinds()) summary.kinds.push_back({info.kind, 0, 0, 0, 0.0, 0, 0.0});
   for (std::size_t i = 0; i < begun_; ++i) {
     const Record& record = records_[i];

@@ -21,7 +21,9 @@ struct Deviation {
 Deviation deviationFrom(const KinematicState& expected, const UavMeasurement& measurement,
                         const InputParameters& input) {
   const Vector3 dp = measurement.p - expected.p;
-  const Vector3 dv = measurement.v - expected.v;
+  // A source that always says zero does not know the velocity.
+  const bool is_known = !measurement.v.isZero(0.0);
+  const Vector3 dv = is_known ? Vector3(measurement.v - expected.v) : Vector3(Vector3::Zero());
   return {FollowingWatch::excess(dp, dv, input), dp + input.tracking_time * dv};
 }
 

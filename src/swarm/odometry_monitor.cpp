@@ -65,14 +65,15 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
     // What repeated it was believed until now.
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
     fault_ = Reason::kOdometryJumps;  // should it go on elsewhere
-    if (!doubted_) doubted_since_ = measurement.stamp;
+    if (!doubted_) doubted_since_ = overdue_since_.value_or(measurement.stamp);
+    source_changed_ = true;  // as soon as anything else comes
     doubted_ = measurement;
     return Reason::kOdometryFrozen;
   }
   if (doubted_ && isElsewhere(*doubted_, measurement, parameters)) source_changed_ = true;
   const bool fits =
       !trusted_ || (doubted_ ? isBack(measurement, motions, parameters) ||
-                                   (source_changed_ && standsOnWay(measurement, motions, parameters.input))
+                                   (source_changed_ && hasStoodOnWay(measurement, motions, parameters.input))
                              : follows(measurement, parameters));
   if (fits) {
     trust(measurement, motions);
@@ -117,23 +118,28 @@ bool OdometryMonitor::isBack(const UavMeasurement& measurement, const MotionMemo
   return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(parameters.input);
 }
 
-bool OdometryMonitor::standsOnWay(const UavMeasurement& measurement, const MotionMemory& motions,
-                                  const InputParameters& input) const {
+bool OdometryMonitor::hasStoodOnWay(const UavMeasurement& measurement, const MotionMemory& motions,
+                                    const InputParameters& input) {
   constexpr double kStep = 0.1;  // [s]
-  if (measurement.v.norm() > kStanding) return false;
-  const double most = kMotionNoises * noiseOf(input);
-  for (double t = measurement.stamp; t >= std::max(trusted_->stamp, measurement.stamp - input.relocalisation_time);
-       t -= kStep) {
+  const double begin = std::max(trusted_->stamp, measurement.stamp - input.relocalisation_time);
+  bool on_way = false;
+  for (double t = measurement.stamp; t >= begin && !on_way; t -= kStep) {
     const std::optional<KinematicState> expected = motions.expectedAt(t);
-    if (expected && (measurement.p - expected->p).norm() <= most) return true;
+    on_way = expected && (measurement.p - expected->p).norm() <= kMotionNoises * noiseOf(input);
   }
-  return false;
+  if (!on_way || measurement.v.norm() > kStanding) {
+    stood_.reset();
+  } else if (!stood_ || (measurement.p - stood_->p).norm() > kFrozenNoises * noiseOf(input)) {
+    stood_ = measurement;
+  }
+  return stood_ && measurement.stamp - stood_->stamp >= input.odometry_doubt_time;
 }
 
 void OdometryMonitor::trust(const UavMeasurement& measurement, const MotionMemory& motions) {
   if (doubted_ || !trusted_) drift_.setZero();
   doubted_.reset();
   source_changed_ = false;
+  stood_.reset();
   trusted_ = measurement;
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   trusted_off_ = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());

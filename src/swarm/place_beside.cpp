@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRoom = 0.5;       // beyond the distance to keep: plans end not quite at rest [m]
 constexpr double kStanding = 1e-3;  // slower obstacles stand [m/s]
+/// No motion flown before has less than is demanded [m].
+const Vector3 kNowhere = Vector3::Constant(1e6);
 
 /// Unit vectors to the sides of an obstacle's way: right, left, up, down. Of one that stands: away from it, towards it,
 /// up, down.
@@ -40,7 +42,7 @@ std::optional<Vector3> placeBeside(const Vector3& place, std::size_t obstacle, d
     const Vector3 candidate = place + std::max(way, 0.0) * side;
     CommittedMotion rest;
     rest.assignRest(t, candidate);
-    if (!checkClearance(rest, candidate, limits, surroundings).accepted()) continue;
+    if (!checkClearance(rest, kNowhere, limits, surroundings).accepted()) continue;
     nearest = candidate;
     least = way;
   }

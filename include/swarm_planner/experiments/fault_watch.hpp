@@ -16,13 +16,15 @@ namespace swarm_planner {
 ///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
 ///     two cycles have met it (frozen odometry: after odometry_timeout);
 ///   - a vehicle that is off the motion that it should fly by more than noise and tracking explain, in position or
-///     velocity (FollowingWatch), in kStrayCycles cycles in a row: less cannot be told from a gust or a push. One that
+///     velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told from a gust or a push. One that
 ///     rests where it is to rest, or flies on as its newest trajectory would have it, does not show.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
 ///
 /// A UAV flies again when a new plan for it begins and its state is TRACKING; the time counts from the end of the last
-/// of the faults that concerned it and overlapped. A UAV that was not tracking anyway when the fault began, because an
-/// obstacle is in its way, is not waited for.
+/// of the faults that concerned it and overlapped. It also does when it is planned for, flies a motion that passes the
+/// check, and new plans are refused for nothing but an obstacle that will come to where they rest: faults have no part in
+/// that. Such recoveries are counted by themselves. For the same reason a UAV that was not tracking anyway when the fault
+/// began is not waited for.
 class FaultWatch : public RunObserver {
  public:
   static constexpr double kReportTime = 1.0;    ///< [s]
@@ -45,8 +47,9 @@ class FaultWatch : public RunObserver {
     int met = 0;                      ///< cycles that had to see it
     Vector3 place = Vector3::Zero();  ///< of the vehicle when it began [m]
     double moved = 0.0;               ///< farthest from there until two cycles before its end [m]
-    int strays = 0;    ///< cycles in a row that have found the vehicle off its motion
-    int strayed = 0;   ///< the most of them
+    int strays = 0;   ///< cycles in a row that have found the vehicle off its motion, to the same side
+    int strayed = 0;  ///< the most of them
+    Vector3 side = Vector3::Zero();  ///< in the last of them [m]
     double first_report = 0.0;
     bool reported = false;
     double recovery_time = 0.0;
@@ -77,6 +80,7 @@ class FaultWatch : public RunObserver {
   std::vector<Uav> uavs_;
   std::size_t begun_ = 0;     ///< records that have begun
   std::size_t finished_ = 0;  ///< so many of the first ones need no more watching
+  std::size_t waited_ = 0;    ///< recoveries of UAVs that wait for an obstacle
 };
 
 /// Whether a reason tells of a vehicle, its odometry or its setpoints, and not of planning alone.
