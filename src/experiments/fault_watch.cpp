@@ -79,15 +79,21 @@ void FaultWatch::begin(Record& record) {
 /// What a cycle at `now` finds: the vehicle is to fly what the one before has made.
 void FaultWatch::watchVehicle(Record& record, double now) const {
   const Uav& uav = uavs_[record.uav];
-  if (now < record.fault.at || now > record.end + twoCycles() || !uav.has_due || now < uav.due.epoch()) {
-    record.strays = 0;
-    return;
+  const bool is_due = uav.has_due && now >= uav.due.epoch();
+  double least = kInfinity;
+  Vector3 side = Vector3::Zero();
+  for (const CommittedMotion* motion : {&uav.due, &uav.before}) {
+    if (!is_due || (motion == &uav.before && !uav.has_before)) break;
+    const KinematicState x = motion->at(now);
+    const Vector3 dp = uav.state.p - x.p;
+    const Vector3 dv = uav.state.v - x.v;
+    const double excess = FollowingWatch::excess(dp, dv, parameters_.input);
+    if (excess >= least) continue;
+    least = excess;
+    side = dp + parameters_.input.tracking_time * dv;
   }
-  const KinematicState due = uav.due.at(now);
-  const Vector3 dp = uav.state.p - due.p;
-  const Vector3 dv = uav.state.v - due.v;
-  const Vector3 side = dp + parameters_.input.tracking_time * dv;
-  const bool is_off = FollowingWatch::excess(dp, dv, parameters_.input) > 1.0;
+  const bool lasts = now >= record.fault.at && now <= record.end + twoCycles();
+  const bool is_off = is_due && lasts && least > 1.0;
   const bool same_side = record.strays > 0 && side.dot(record.side) > 0.0;
   record.strays = !is_off ? 0 : same_side ? record.strays + 1 : 1;
   record.side = side;
@@ -102,6 +108,8 @@ void FaultWatch::onCycle(double epoch, const CycleReport& report) {
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
     Uav& uav = uavs_[i];
     // A motion made before the planner died says nothing about the vehicle once there is a new one.
+    uav.has_before = uav.has_due;
+    uav.before = uav.due;
     uav.has_due = report.uavs[i].planned;
     if (uav.has_due) uav.due = planner_.committed(i);
     uav.tracks = report.uavs[i].state == UavState::kTracking;

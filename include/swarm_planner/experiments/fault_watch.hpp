@@ -15,8 +15,8 @@ namespace swarm_planner {
 ///   - odometry that cannot be used, once two cycles have met it (lost odometry: after odometry_timeout);
 ///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
 ///     two cycles have met it (frozen odometry: after odometry_timeout);
-///   - a vehicle that is off the motion that it should fly by more than noise and tracking explain, in position or
-///     velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told from a gust or a push. One that
+///   - a vehicle that is off the motion that it should fly, and the one before, by more than noise and tracking explain,
+///     in position or velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told from a gust or a push. One that
 ///     rests where it is to rest, or flies on as its newest trajectory would have it, does not show.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
 ///
@@ -56,8 +56,8 @@ class FaultWatch : public RunObserver {
     std::size_t waiting = 0;  ///< UAVs that have not recovered yet
   };
   struct Uav {
-    CommittedMotion due;  ///< made in the last cycle
-    bool has_due = false;
+    CommittedMotion due, before;  ///< made in the last cycle, and in that before
+    bool has_due = false, has_before = false;
     QuadState state;      ///< of the vehicle, at the last sample
     bool tracks = false;          ///< in the last cycle
     double clear_at = 0.0;        ///< end of the last fault that has begun
