@@ -32,8 +32,8 @@ bool isReachable(const UavMeasurement& from, const UavMeasurement& to, const Par
          (way - 0.5 * dt * (from.v + to.v)).norm() <= 0.25 * dt * dt * acceleration + noise;
 }
 
-/// Whether two measurements in a row, both doubted, are surely not of the same source: it has begun to lie otherwise, or
-/// to tell the truth.
+/// Whether two measurements in a row, both doubted, are surely not of the same source: it has begun to lie otherwise,
+/// or to tell the truth.
 bool isElsewhere(const UavMeasurement& from, const UavMeasurement& to, const Parameters& parameters) {
   const double dt = to.stamp - from.stamp;
   const double acceleration = parameters.limits.max_thrust_ratio * parameters.vehicle.gravity;

@@ -78,8 +78,7 @@ void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surround
   report.solve_time = stopwatch.elapsed();
 }
 
-void UavPlanner::goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
-                      UavReport& report) {
+void UavPlanner::goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   report.overrun = true;
   report.reason = Reason::kOverrun;
   if (record.task.mode == FlightMode::kLanded) {

@@ -32,8 +32,8 @@ TEST(StrayingUav, ThatHoversInsteadOfFlyingIsKeptClearOf) {
   EXPECT_GT(flight.vehicle(1).p.x(), 5.0) << "it does not get past";
 }
 
-/// UAV 0 flies ahead along x and, at x = 9 m, brakes on its own with 3 m/s^2 and hovers; its odometry tells. UAV 1 flies
-/// in `column` along x behind it, or crosses its way. Returns how close they come, less the pair distance.
+/// UAV 0 flies ahead along x and, at x = 9 m, brakes on its own with 3 m/s^2 and hovers; its odometry tells. UAV 1
+/// flies in `column` along x behind it, or crosses its way. Returns how close they come, less the pair distance.
 double leastRoomBesideAStop(bool column, double noise) {
   const Vector3 start = column ? Vector3(-9, 0, 10) : Vector3(10.5, -20, 10);
   const Vector3 end = column ? Vector3(51, 0, 10) : Vector3(10.5, 40, 10);

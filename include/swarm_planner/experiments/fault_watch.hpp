@@ -15,19 +15,21 @@ namespace swarm_planner {
 ///   - odometry that cannot be used, once two cycles have met it (lost odometry: after odometry_timeout);
 ///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
 ///     two cycles have met it (frozen odometry: after odometry_timeout);
-///   - a vehicle that is off the motion that it should fly, and the one before, by more than noise and tracking explain,
-///     in position or velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told from a gust or a push. One that
-///     rests where it is to rest, or flies on as its newest trajectory would have it, does not show.
+///   - a vehicle that is off the motion that it should fly, and the one before, by more than noise and tracking
+///   explain,
+///     in position or velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told
+///     from a gust or a push. One that rests where it is to rest, or flies on as its newest trajectory would have it,
+///     does not show.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
 ///
 /// A UAV flies again when a new plan for it begins and its state is TRACKING; the time counts from the end of the last
 /// of the faults that concerned it and overlapped. It also does when it is planned for, flies a motion that passes the
-/// check, and new plans are refused for nothing but an obstacle that will come to where they rest: faults have no part in
-/// that. Such recoveries are counted by themselves. For the same reason a UAV that was not tracking anyway when the fault
-/// began is not waited for.
+/// check, and new plans are refused for nothing but an obstacle that will come to where they rest: faults have no part
+/// in that. Such recoveries are counted by themselves. For the same reason a UAV that was not tracking anyway when the
+/// fault began is not waited for.
 class FaultWatch : public RunObserver {
  public:
-  static constexpr double kReportTime = 1.0;    ///< [s]
+  static constexpr double kReportTime = 1.0;  ///< [s]
   static constexpr int kStrayCycles = 2;
   static constexpr double kRecoveryTime = 5.0;  ///< longer is listed among the misses [s]
 
@@ -47,9 +49,9 @@ class FaultWatch : public RunObserver {
     int met = 0;                      ///< cycles that had to see it
     Vector3 place = Vector3::Zero();  ///< of the vehicle when it began [m]
     double moved = 0.0;               ///< farthest from there until two cycles before its end [m]
-    int strays = 0;   ///< cycles in a row that have found the vehicle off its motion, to the same side
-    int strayed = 0;  ///< the most of them
-    Vector3 side = Vector3::Zero();  ///< in the last of them [m]
+    int strays = 0;                   ///< cycles in a row that have found the vehicle off its motion, to the same side
+    int strayed = 0;                  ///< the most of them
+    Vector3 side = Vector3::Zero();   ///< in the last of them [m]
     double first_report = 0.0;
     bool reported = false;
     double recovery_time = 0.0;
@@ -58,7 +60,7 @@ class FaultWatch : public RunObserver {
   struct Uav {
     CommittedMotion due, before;  ///< made in the last cycle, and in that before
     bool has_due = false, has_before = false;
-    QuadState state;      ///< of the vehicle, at the last sample
+    QuadState state;              ///< of the vehicle, at the last sample
     bool tracks = false;          ///< in the last cycle
     double clear_at = 0.0;        ///< end of the last fault that has begun
     bool waiting = false;         ///< has not flown since

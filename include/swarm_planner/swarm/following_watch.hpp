@@ -8,12 +8,13 @@
 namespace swarm_planner {
 
 /// Watches whether a vehicle does what it is told, so that one that hovers or brakes on its own shows before it is far
-/// off its motion. With n = odometry_noise and T = tracking_time a measurement is beyond what noise and tracking explain
-/// if it is off every motion that the vehicle may be flying by more than 4 n of position or 2 n / T of velocity: four
-/// standard deviations of noise that a planner with the shipped parameters is meant for.
+/// off its motion. With n = odometry_noise and T = tracking_time a measurement is beyond what noise and tracking
+/// explain if it is off every motion that the vehicle may be flying by more than 4 n of position or 2 n / T of
+/// velocity: four standard deviations of noise that a planner with the shipped parameters is meant for.
 ///
 ///  - One such measurement makes it suspected: others are to keep clear of where it would stop, too.
-///  - Two in a row that are off to the same side: it does not follow, and has to be planned for from where it is. A push
+///  - Two in a row that are off to the same side: it does not follow, and has to be planned for from where it is. A
+///  push
 ///    does not last so long. Until it is cleared of that one is enough.
 ///  - It is cleared once it is measured on its motion again, and more than 4 n from where it was off last: who only
 ///    stands where it is to stand may hover on its own. Nobody is told of that any more after odometry_doubt_time.
@@ -43,11 +44,11 @@ class FollowingWatch {
   enum class Finding { kFollows, kSuspected, kDoesNotFollow };
 
   Finding finding_ = Finding::kFollows;
-  bool is_off_ = false;                     ///< the newest measurement
-  Vector3 direction_ = Vector3::Zero();     ///< in which it was off [m]
-  Vector3 last_place_ = Vector3::Zero();    ///< of the last one that was [m]
-  double last_off_ = 0.0;                   ///< its stamp [s]
-  double stamp_ = 0.0;                      ///< of the newest one [s]
+  bool is_off_ = false;                   ///< the newest measurement
+  Vector3 direction_ = Vector3::Zero();   ///< in which it was off [m]
+  Vector3 last_place_ = Vector3::Zero();  ///< of the last one that was [m]
+  double last_off_ = 0.0;                 ///< its stamp [s]
+  double stamp_ = 0.0;                    ///< of the newest one [s]
 };
 
 }  // namespace swarm_planner

@@ -28,8 +28,8 @@ namespace swarm_planner {
 ///    After any of these a measurement is believed that lies within 3 n of where the motion, or the motion with the
 ///    deviation that was there before (without what has drifted), has the UAV (without a motion: that a flight within T
 ///    leads to); one that has stood for T where the motion has led since, once the source does not go on where it
-///    was: the vehicle has stopped on its own; and any, once measurements have fitted each other for relocalisation_time: an
-///    estimator that has found its place anew.
+///    was: the vehicle has stopped on its own; and any, once measurements have fitted each other for
+///    relocalisation_time: an estimator that has found its place anew.
 ///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
 class OdometryMonitor {
  public:

@@ -26,8 +26,8 @@ class UavPlanner {
   /// A motion for `epoch` from record.start on. `uav`: its index in `surroundings`, which learns of the new motion.
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
-  /// For a UAV whose turn does not come any more: its motion goes on if that still passes the check. Otherwise it brakes,
-  /// or flies what falls short least.
+  /// For a UAV whose turn does not come any more: its motion goes on if that still passes the check. Otherwise it
+  /// brakes, or flies what falls short least.
   void goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
   /// For a UAV that is not seen: its motion goes on if that still passes the check. Otherwise a plan to where it was to

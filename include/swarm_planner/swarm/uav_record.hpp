@@ -40,9 +40,9 @@ struct UavRecord {
   FollowingWatch following;
   /// A stop from where it was seen last, which it may fly instead of its motion: it was not on that.
   std::optional<CommittedMotion> aside;
-  bool evades = false;                ///< it has a new motion since it was seen last
-  bool off_plan = false;              ///< planned for anew in this cycle: it was far off its motion for long
-  double off_plan_distance = 0.0;     ///< so far [m]
+  bool evades = false;             ///< it has a new motion since it was seen last
+  bool off_plan = false;           ///< planned for anew in this cycle: it was far off its motion for long
+  double off_plan_distance = 0.0;  ///< so far [m]
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
   /// The target stays where it is at `t` [s], until its time zero is set anew.
@@ -68,8 +68,7 @@ struct UavRecord {
 
  private:
   /// Others keep clear of it from the measured state on, too.
-  void setAside(const KinematicState& measured, double epoch, const Parameters& parameters,
-                const FlightBounds& bounds);
+  void setAside(const KinematicState& measured, double epoch, const Parameters& parameters, const FlightBounds& bounds);
   void startAnew(const KinematicState& measured, double epoch, const Parameters& parameters,
                  const FlightBounds& bounds);
 };
