@@ -59,6 +59,7 @@ std::string faultTable(const Scenario& scenario, const RunResult& run) {
   text += "\n" + scenario.name + ": faults\n" +
           tableLine("kind", "injected", "noticeable", "reported", "after s", "recovered", "within s");
   for (const FaultTally& tally : run.faults.kinds) text += tableLine(tally);
+  text += "waited for an obstacle when they could have flown again: " + std::to_string(run.faults.waited) + "\n";
   const std::vector<FaultMiss>& misses = run.faults.misses;
   for (std::size_t i = 0; i < std::min(misses.size(), kMostMissesListed); ++i) {
     text += scenario.name + ": " + describe(misses[i]);
@@ -98,6 +99,7 @@ void addFaults(const RunResult& run, JsonObject& object) {
       misses.back().add("uav", miss.uav).addFlag("unreported", miss.unreported).add("recovery_s", miss.recovery_time);
     }
     object.add("faults", kinds).add("fault_misses", misses).add("worst_recovery_s", run.faults.recovery_time);
+    object.addCount("waited_for_obstacle", run.faults.waited);
   }
   if (!run.rehearsal) return;
   JsonObject memory, rehearsal;

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <limits>
 
+#include "swarm_planner/swarm/following_watch.hpp"
+
 namespace swarm_planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// So long after its end nothing about a fault is looked at any more, but for recovery [s].
-constexpr double kAftermath = std::max(FaultWatch::kReportTime, FaultWatch::kStrayTime);
 
 std::size_t indexOf(const std::string& name, const std::vector<ScenarioUav>& uavs) {
   const auto found = std::find_if(uavs.begin(), uavs.end(), [&](const ScenarioUav& uav) { return uav.name == name; });
@@ -53,10 +53,12 @@ void FaultWatch::onSample(double t, const std::vector<QuadSimulator>& vehicles, 
     if (record.uav < vehicles.size()) record.place = vehicles[record.uav].state().p;
     begin(record);
   }
-  while (finished_ < begun_ && t > records_[finished_].end + kAftermath) ++finished_;
+  while (finished_ < begun_ && t > records_[finished_].end + kReportTime) ++finished_;
+  for (std::size_t i = 0; i < uavs_.size(); ++i) uavs_[i].state = vehicles[i].state();
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
-    if (record.uav < vehicles.size() && t <= record.end + kStrayTime) watchVehicle(record, t, vehicles[record.uav]);
+    if (record.uav >= vehicles.size() || t > record.end - twoCycles()) continue;
+    record.moved = std::max(record.moved, (vehicles[record.uav].state().p - record.place).norm());
   }
 }
 
@@ -74,28 +76,49 @@ void FaultWatch::begin(Record& record) {
   }
 }
 
-void FaultWatch::watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const {
-  if (t <= record.end - twoCycles()) record.moved = std::max(record.moved, (vehicle.state().p - record.place).norm());
+/// What a cycle at `now` finds: the vehicle is to fly what the one before has made.
+void FaultWatch::watchVehicle(Record& record, double now) const {
   const Uav& uav = uavs_[record.uav];
-  const bool next_flies = uav.has_next && t >= uav.next.epoch();
-  if (!next_flies && !uav.has_due) return;
-  const Vector3 due = (next_flies ? uav.next : uav.due).at(t).p;
-  const bool strays = (vehicle.state().p - due).norm() > 2.0 * parameters_.limits.tracking_margin;
-  if (strays && !record.strays) record.strayed_since = t;
-  if (strays) record.strayed_for = std::max(record.strayed_for, t - record.strayed_since);
-  record.strays = strays;
+  const bool is_due = uav.has_due && now >= uav.due.epoch();
+  double least = kInfinity;
+  Vector3 side = Vector3::Zero();
+  for (const CommittedMotion* motion : {&uav.due, &uav.before}) {
+    if (!is_due || (motion == &uav.before && !uav.has_before)) break;
+    const KinematicState x = motion->at(now);
+    const Vector3 dp = uav.state.p - x.p;
+    const Vector3 dv = uav.state.v - x.v;
+    const double excess = FollowingWatch::excess(dp, dv, parameters_.input);
+    if (excess >= least) continue;
+    least = excess;
+    side = dp + parameters_.input.tracking_time * dv;
+  }
+  const bool lasts = now >= record.fault.at && now <= record.end + twoCycles();
+  const bool is_off = is_due && lasts && least > 1.0;
+  const bool same_side = record.strays > 0 && side.dot(record.side) > 0.0;
+  record.strays = !is_off ? 0 : same_side ? record.strays + 1 : 1;
+  record.side = side;
+  record.strayed = std::max(record.strayed, record.strays);
 }
 
 void FaultWatch::onCycle(double epoch, const CycleReport& report) {
   const double now = epoch - parameters_.time.cycle_period;
+  for (std::size_t i = finished_; i < begun_; ++i) {
+    if (records_[i].uav < uavs_.size()) watchVehicle(records_[i], now);
+  }
   for (std::size_t i = 0; i < uavs_.size(); ++i) {
     Uav& uav = uavs_[i];
-    uav.due = uav.next;
-    uav.has_due = uav.has_next;
-    uav.has_next = report.uavs[i].planned;
-    if (uav.has_next) uav.next = planner_.committed(i);
+    // A motion made before the planner died says nothing about the vehicle once there is a new one.
+    uav.has_before = uav.has_due;
+    uav.before = uav.due;
+    uav.has_due = report.uavs[i].planned;
+    if (uav.has_due) uav.due = planner_.committed(i);
     uav.tracks = report.uavs[i].state == UavState::kTracking;
-    if (uav.waiting && uav.tracks && now >= uav.clear_at) recover(i, epoch);
+    // That would be so without any fault, too.
+    const bool waits = report.uavs[i].reason == Reason::kPlanRefused && report.uavs[i].planned &&
+                       report.uavs[i].refusal == CheckReason::kRestingPlace;
+    if (!uav.waiting || !(uav.tracks || waits) || now < uav.clear_at) continue;
+    if (!uav.tracks) ++waited_;
+    recover(i, epoch);
   }
   for (std::size_t i = finished_; i < begun_; ++i) {
     Record& record = records_[i];
@@ -144,7 +167,7 @@ bool FaultWatch::isNoticeable(const Record& record) const {
     case FaultKind::kSetpointsIgnored:
     case FaultKind::kPush:
     case FaultKind::kWind:
-      return record.strayed_for > kStrayTime;
+      return record.strayed >= kStrayCycles;
     default:
       return false;
   }
@@ -152,6 +175,7 @@ bool FaultWatch::isNoticeable(const Record& record) const {
 
 FaultSummary FaultWatch::summary() const {
   FaultSummary summary;
+  summary.waited = waited_;
   for (const FaultKindInfo& info : faultKinds()) summary.kinds.push_back({info.kind, 0, 0, 0, 0.0, 0, 0.0});
   for (std::size_t i = 0; i < begun_; ++i) {
     const Record& record = records_[i];

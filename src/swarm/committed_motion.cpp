@@ -63,6 +63,14 @@ void CommittedMotion::dropPieces(int count) {
   finish();
 }
 
+void CommittedMotion::moveTo(double t) {
+  if (t >= epoch_ + duration()) {
+    assignRest(t, Vector3(restingPlace()));
+  } else {
+    dropPieces(endedPieces(t));
+  }
+}
+
 void CommittedMotion::appendPieces(const KinematicState* knots, int count) {
   for (int k = 0; k < count; ++k) {
     const SegmentPoints points = segmentPoints(knots[k], knots[k + 1], dt_);

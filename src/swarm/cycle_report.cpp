@@ -81,6 +81,12 @@ const char* reasonText(Reason reason) {
       return "stopped by command";
     case Reason::kTakingOver:
       return "in flight when the planner started; its last trajectory goes on until all inputs are known";
+    case Reason::kNotFollowing:
+      return "does not follow its setpoints; planned from where it is";
+    case Reason::kGivesWay:
+      return "gives way: an obstacle will come to where it could rest";
+    case Reason::kEvadesUnseen:
+      return "without odometry, and its motion is not clear any more; flies a new one from where it should be";
   }
   return "unknown reason";
 }

@@ -14,6 +14,7 @@ constexpr double kFrozenNoises = 2.0;  // odometry_noise that the UAV should hav
 constexpr double kMotionNoises = 3.0;  // odometry_noise that a UAV may be off where it is to be again after a fault
 constexpr double kJumpNoises = 7.0;    // odometry_noise that two measurements may differ by
 constexpr double kSpeedSlack = 1.2;    // gusts carry a UAV faster than it is allowed to plan
+constexpr double kStanding = 0.3;      // a UAV that is slower stands [m/s]
 constexpr double kLongestStep = 0.5;   // between two measurements, for their mean velocity to tell the way [s]
 constexpr double kDriftMemory = 5.0;   // time constant in which a difference of way and velocity is forgotten [s]
 
@@ -29,6 +30,15 @@ bool isReachable(const UavMeasurement& from, const UavMeasurement& to, const Par
   const double acceleration = parameters.limits.max_thrust_ratio * parameters.vehicle.gravity;
   return way.norm() <= speed * dt + noise &&
          (way - 0.5 * dt * (from.v + to.v)).norm() <= 0.25 * dt * dt * acceleration + noise;
+}
+
+/// Whether two measurements in a row, both doubted, are surely not of the same source: it has begun to lie otherwise,
+/// or to tell the truth.
+bool isElsewhere(const UavMeasurement& from, const UavMeasurement& to, const Parameters& parameters) {
+  const double dt = to.stamp - from.stamp;
+  const double acceleration = parameters.limits.max_thrust_ratio * parameters.vehicle.gravity;
+  const double most = 0.25 * dt * dt * acceleration + kMotionNoises * noiseOf(parameters.input);
+  return dt <= 0.0 || (to.p - from.p - 0.5 * dt * (from.v + to.v)).norm() > most;
 }
 
 }  // namespace
@@ -54,14 +64,23 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
   if (isFrozen(measurement, motions, parameters.input)) {
     // What repeated it was believed until now.
     if (trusted_ && trusted_->p == held_->p) trusted_ = held_;
+    fault_ = Reason::kOdometryJumps;  // should it go on elsewhere
+    if (!doubted_) doubted_since_ = overdue_since_.value_or(measurement.stamp);
+    source_changed_ = true;  // as soon as anything else comes
+    doubted_ = measurement;
     return Reason::kOdometryFrozen;
   }
+  if (doubted_ && isElsewhere(*doubted_, measurement, parameters)) source_changed_ = true;
   const bool fits =
-      !trusted_ || (doubted_ ? isBack(measurement, motions, parameters) : follows(measurement, parameters));
+      !trusted_ || (doubted_ ? isBack(measurement, motions, parameters) ||
+                                   (source_changed_ && hasStoodOnWay(measurement, motions, parameters.input))
+                             : follows(measurement, parameters));
   if (fits) {
     trust(measurement, motions);
     return Reason::kNone;
   }
+  // A drift has been there for a while before it showed: so far it is not the UAV that is off its motion.
+  if (!doubted_ && fault_ == Reason::kOdometryDrifts) trusted_off_ -= drift_;
   if (!doubted_ || !isReachable(*doubted_, measurement, parameters)) doubted_since_ = measurement.stamp;
   doubted_ = measurement;
   if (measurement.stamp - doubted_since_ < parameters.input.relocalisation_time) return fault_;
@@ -99,9 +118,28 @@ bool OdometryMonitor::isBack(const UavMeasurement& measurement, const MotionMemo
   return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(parameters.input);
 }
 
+bool OdometryMonitor::hasStoodOnWay(const UavMeasurement& measurement, const MotionMemory& motions,
+                                    const InputParameters& input) {
+  constexpr double kStep = 0.1;  // [s]
+  const double begin = std::max(trusted_->stamp, measurement.stamp - input.relocalisation_time);
+  bool on_way = false;
+  for (double t = measurement.stamp; t >= begin && !on_way; t -= kStep) {
+    const std::optional<KinematicState> expected = motions.expectedAt(t);
+    on_way = expected && (measurement.p - expected->p).norm() <= kMotionNoises * noiseOf(input);
+  }
+  if (!on_way || measurement.v.norm() > kStanding) {
+    stood_.reset();
+  } else if (!stood_ || (measurement.p - stood_->p).norm() > kFrozenNoises * noiseOf(input)) {
+    stood_ = measurement;
+  }
+  return stood_ && measurement.stamp - stood_->stamp >= input.odometry_doubt_time;
+}
+
 void OdometryMonitor::trust(const UavMeasurement& measurement, const MotionMemory& motions) {
   if (doubted_ || !trusted_) drift_.setZero();
   doubted_.reset();
+  source_changed_ = false;
+  stood_.reset();
   trusted_ = measurement;
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
   trusted_off_ = expected ? Vector3(measurement.p - expected->p) : Vector3(Vector3::Zero());

@@ -27,13 +27,13 @@ Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, 
       areas_(uav_count) {
   obstacles_.reserve(max_obstacles + uav_count);
   checked_obstacles_.reserve(max_obstacles + uav_count);
-  last_places_.reserve(uav_count);
+  asides_.reserve(uav_count);
   neighbours_.reserve(uav_count);
 }
 
 void Surroundings::setEpoch(double epoch) {
   epoch_ = epoch;
-  last_places_.clear();
+  asides_.clear();
 }
 
 void Surroundings::setObstacles(const std::vector<TrackedObstacle>& tracks, double now) {
@@ -73,15 +73,14 @@ void Surroundings::replaceMotions(std::size_t uav, const CommittedMotion& newest
   updateBox(motions_[uav]);
 }
 
-void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place) {
+void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const CommittedMotion* aside) {
   Motions& motions = motions_[uav];
   motions.doubt = doubt;
-  if (last_place) {
-    motions.last_place = static_cast<int>(last_places_.size());
-    last_places_.emplace_back();
-    LastPlace& place = last_places_.back();
-    place.motion.assignRest(epoch_, *last_place);
-    predict(place.motion, epoch_, parameters_.time.sampling_time, place.prediction);
+  if (aside != nullptr) {
+    motions.aside = static_cast<int>(asides_.size());
+    asides_.emplace_back();
+    asides_.back().motion = aside;
+    predict(*aside, epoch_, parameters_.time.sampling_time, asides_.back().prediction);
   }
   updateBox(motions);
   include(areas_[uav], motions.box);
@@ -90,9 +89,7 @@ void Surroundings::setDoubt(std::size_t uav, const MotionDoubt& doubt, const std
 void Surroundings::updateBox(Motions& motions) const {
   motions.box = motions.newest->box();
   if (motions.older != nullptr) include(motions.box, motions.older->box());
-  if (motions.last_place >= 0) {
-    include(motions.box, last_places_[static_cast<std::size_t>(motions.last_place)].motion.box());
-  }
+  if (motions.aside >= 0) include(motions.box, asides_[static_cast<std::size_t>(motions.aside)].motion->box());
   const Vector3 reach = Vector3::Constant(motions.doubt.limit);
   motions.box.min -= reach;
   motions.box.max += reach;
@@ -153,9 +150,9 @@ void Surroundings::collectUavs(std::size_t uav, const Box& reach, UavProblem& pr
     if (motions.newest == nullptr) continue;
     if (!motions.box.near(reach, std::max(horizontal_, vertical_))) continue;
     addUav(uav, other, predictions_[other], 2 * other + 1, reach, problem);
-    if (motions.last_place < 0) continue;
-    const PredictedMotion& last_place = last_places_[static_cast<std::size_t>(motions.last_place)].prediction;
-    addUav(uav, other, last_place, 2 * (other + count) + 1, reach, problem);
+    if (motions.aside < 0) continue;
+    const PredictedMotion& aside = asides_[static_cast<std::size_t>(motions.aside)].prediction;
+    addUav(uav, other, aside, 2 * (other + count) + 1, reach, problem);
   }
 }
 
@@ -182,9 +179,9 @@ void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) con
     const Motions& motions = motions_[other];
     if (motions.newest == nullptr || !motions.box.near(areas_[uav], 0.5 * std::max(horizontal_, vertical_))) continue;
     surroundings.uavs.push_back({motions.newest, kForGood, motions.doubt});
-    if (motions.last_place >= 0) {
-      const LastPlace& place = last_places_[static_cast<std::size_t>(motions.last_place)];
-      surroundings.uavs.push_back({&place.motion, kForGood, motions.doubt});
+    if (motions.aside >= 0) {
+      const Aside& aside = asides_[static_cast<std::size_t>(motions.aside)];
+      surroundings.uavs.push_back({aside.motion, kForGood, motions.doubt});
     }
     if (motions.older == nullptr || parameters_.input.lost_setpoints == 0) continue;
     // The cycle after the newest motion's sends the next one, which is not lost too.

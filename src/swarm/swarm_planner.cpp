@@ -223,8 +223,8 @@ class SwarmPlanner::Impl {
     }
     team.forEach(0, uavs.size(), [&](std::size_t i, std::size_t) { prepare(i, snapshot, epoch); });
     for (std::size_t i = 0; i < uavs.size(); ++i) {
-      if ((uavs[i].unseen || uavs[i].last_place) && !uavs[i].motions.empty()) {
-        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].last_place);
+      if ((uavs[i].unseen || uavs[i].aside) && !uavs[i].motions.empty()) {
+        surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].aside ? &*uavs[i].aside : nullptr);
       }
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
@@ -234,16 +234,25 @@ class SwarmPlanner::Impl {
     for (std::size_t round = 0; round < order.rounds(); ++round) {
       team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
         const std::size_t i = order.uav(position);
+        if (isToKeepClear(i)) planners[member].keepClear(i, epoch, uavs[i], surroundings, report.uavs[i]);
         if (!isToPlan(i)) return;
         // Whatever the budget, somebody makes progress.
         if (planned.exchange(true) && stopwatch.elapsed() > budget) {
-          goOn(i, epoch);
+          planners[member].goOn(i, epoch, uavs[i], surroundings, report.uavs[i]);
+          reportTask(uavs[i].task, report.uavs[i]);
         } else {
           planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
         }
       });
     }
     noteOverrun();
+  }
+
+  /// Whether it is not seen, but flies what was planned for it.
+  bool isToKeepClear(std::size_t i) const {
+    const UavRecord& uav = uavs[i];
+    const FlightMode mode = uav.task.mode;
+    return uav.unseen && uav.planned && isPlannedFor(mode) && mode != FlightMode::kLanded && !uav.motions.empty();
   }
 
   bool isToPlan(std::size_t i) const { return judged[i] == Reason::kNone && isPlannedFor(uavs[i].task.mode); }
@@ -292,15 +301,7 @@ class SwarmPlanner::Impl {
       surroundings.setMotions(i, uav.motions.newest(), uav.motions.olderInFlight(epoch, parameters.time.cycle_period));
     }
     if (isToPlan(i)) surroundings.setPlanning(i, uav.start);
-  }
-
-  /// There is no time to plan for the UAV.
-  void goOn(std::size_t i, double epoch) {
-    uavs[i].motions.goOn(epoch);
-    report.uavs[i].planned = uavs[i].planned;
-    report.uavs[i].state = UavState::kFallback;
-    report.uavs[i].reason = Reason::kOverrun;
-    reportTask(uavs[i].task, report.uavs[i]);
+    if (isToKeepClear(i)) surroundings.setPlanning(i, uav.motions.flown().at(epoch));
   }
 
   /// Whose turn came first of those that missed it comes first in the next cycle, so that nobody misses it for ever.
@@ -308,7 +309,7 @@ class SwarmPlanner::Impl {
   void noteOverrun() {
     for (std::size_t turn = 0; turn < uavs.size() && !report.out_of_time; ++turn) {
       const std::size_t i = (first + turn) % uavs.size();
-      if (report.uavs[i].reason != Reason::kOverrun) continue;
+      if (!report.uavs[i].overrun) continue;
       report.out_of_time = true;
       first = i;
     }

@@ -8,6 +8,7 @@
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
+#include "swarm_planner/swarm/place_beside.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
@@ -62,25 +63,72 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
   problem_.bodies.reserve(max_bodies);
   check_.obstacles.reserve(max_bodies);
   check_.uavs.reserve(2 * max_bodies);
+  detour_.path = ReferencePath({Vector3::Zero(), Vector3::UnitX()});
 }
 
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
-  surroundings.collect(uav, check_);
-  committed_ = record.motions.flown().at(epoch).p;
-  has_proposal_ = false;
-  flies_whole_plan_ = false;
-  setWorkspace(record);
-  limitDoubts(epoch, record.motions.flown());
+  survey(uav, epoch, record, surroundings);
   if (rest(uav, epoch, record, surroundings)) {
     poseProblem(uav, epoch, record, surroundings);
   } else {
     report.reason = flyOn(uav, epoch, record, surroundings, report);
   }
-  surroundings.replaceMotions(uav, record.motions.newest(),
-                              record.motions.olderInFlight(epoch, parameters_.time.cycle_period));
+  publish(uav, epoch, record, surroundings);
   fillReport(epoch, record, report);
   report.solve_time = stopwatch.elapsed();
+}
+
+void UavPlanner::goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
+  report.overrun = true;
+  report.reason = Reason::kOverrun;
+  if (record.task.mode == FlightMode::kLanded) {
+    record.motions.goOn(epoch);
+  } else {
+    survey(uav, epoch, record, surroundings);
+    record.motions.goOn(epoch);
+    kept_ = record.motions.newest();
+    const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
+    if (!kept.accepted()) report.reason = brake(kept, uav, epoch, record, surroundings);
+    publish(uav, epoch, record, surroundings);
+  }
+  report.planned = record.planned;
+  report.state = UavState::kFallback;
+}
+
+void UavPlanner::keepClear(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                           UavReport& report) {
+  survey(uav, epoch, record, surroundings);
+  kept_ = record.motions.flown();
+  kept_.moveTo(epoch);
+  const CheckVerdict verdict = checkClearance(kept_, kept_.start(), limits_, check_);
+  if (!verdict.accepted()) {
+    record.start = record.motions.flown().at(epoch);
+    record.evades = true;
+    const bool has_plan = goTo(kept_.restingPlace(), uav, epoch, record, surroundings, report);
+    const Reason reason = has_plan ? Reason::kNone : fallBack(uav, epoch, record, surroundings, report);
+    report.reason = isAlarm(reason) ? reason : Reason::kEvadesUnseen;
+    publish(uav, epoch, record, surroundings);
+  }
+  report.planned = record.evades;
+}
+
+void UavPlanner::survey(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
+  surroundings.collect(uav, check_);
+  committed_ = record.motions.flown().at(epoch).p;
+  has_proposal_ = false;
+  flies_whole_plan_ = false;
+  on_detour_ = false;
+  setWorkspace(record);
+  // What is not known of its own place is demanded of its distances.
+  const MotionDoubt own = record.doubt(parameters_.input);
+  for (OtherMotion& other : check_.uavs) other.doubt = other.doubt.with(own);
+  limitDoubts(epoch, record.motions.flown());
+}
+
+void UavPlanner::publish(std::size_t uav, double epoch, const UavRecord& record, Surroundings& surroundings) const {
+  surroundings.replaceMotions(uav, record.motions.newest(),
+                              record.motions.olderInFlight(epoch, parameters_.time.cycle_period));
 }
 
 void UavPlanner::setWorkspace(const UavRecord& record) {
@@ -110,7 +158,7 @@ Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const
     record.start = committed;
     verdict = propose(uav, epoch, record, surroundings, report);
   }
-  if (!verdict.accepted()) return fallBack(uav, epoch, record, surroundings);
+  if (!verdict.accepted()) return fallBack(uav, epoch, record, surroundings, report);
   record.motions.commit(motion_);
   record.planned = true;
   return report.stays ? Reason::kPlanRefused : Reason::kNone;
@@ -203,12 +251,44 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
   return verdict;
 }
 
-Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
+Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                            UavReport& report) {
   record.motions.goOn(epoch);
   kept_ = record.motions.newest();
   const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
   if (kept.accepted()) return Reason::kPlanRefused;
+  if (kept.reason == CheckReason::kRestingPlace && giveWay(kept, uav, epoch, record, surroundings, report)) {
+    return Reason::kGivesWay;
+  }
+  return brake(kept, uav, epoch, record, surroundings);
+}
 
+bool UavPlanner::goTo(const Vector3& place, std::size_t uav, double epoch, UavRecord& record,
+                      const Surroundings& surroundings, UavReport& report) {
+  detour_.path.assignLine(record.start.p, place);
+  detour_.start = detour_.path.length();
+  detour_.speed = 0.0;
+  detour_.time_zero = epoch;
+  on_detour_ = true;
+  const bool accepted = propose(uav, epoch, record, surroundings, report).accepted();
+  on_detour_ = false;
+  if (accepted) {
+    record.motions.commit(motion_);
+    record.planned = true;
+  }
+  return accepted;
+}
+
+bool UavPlanner::giveWay(const CheckVerdict& verdict, std::size_t uav, double epoch, UavRecord& record,
+                         const Surroundings& surroundings, UavReport& report) {
+  const double arrival = epoch + kHorizon * problem_.dt;
+  const std::optional<Vector3> place =
+      placeBeside(kept_.restingPlace(), static_cast<std::size_t>(verdict.body), arrival, limits_, check_);
+  return place && goTo(*place, uav, epoch, record, surroundings, report);
+}
+
+Reason UavPlanner::brake(const CheckVerdict& kept, std::size_t uav, double epoch, UavRecord& record,
+                         const Surroundings& surroundings) {
   StopManoeuvre stop;
   planStop(record.start, problem_.dt, relieveBounds(limits_.bounds, record.start, kBoundSlack), stop);
   stop_.assignStop(epoch, stop);
@@ -257,12 +337,14 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
+  const bool gives_way = report.reason == Reason::kGivesWay;
   if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
+  if (on_new_plan && record.following.isNotFollowing()) report.reason = Reason::kNotFollowing;
   if (on_new_plan && record.off_plan) {
     report.reason = Reason::kOffPlan;
     report.deviation = record.off_plan_distance;
   }
-  report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
+  report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTask(record.task, report);
 }
 
@@ -278,9 +360,11 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
   const bool on_mission = record.task.mode == FlightMode::kFlying;
-  const MovingTarget& target = on_mission ? record.reference : record.task.target;
-  bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
-  double& progress = on_mission ? record.progress : record.task.target_progress;
+  double detour_progress = 0.0;
+  bool on_detour_path = true;
+  const MovingTarget& target = on_detour_ ? detour_ : on_mission ? record.reference : record.task.target;
+  bool& on_path = on_detour_ ? on_detour_path : on_mission ? record.on_reference : record.task.on_target_path;
+  double& progress = on_detour_ ? detour_progress : on_mission ? record.progress : record.task.target_progress;
   const double full_speed = parameters_.limits.max_speed;
   progress = on_path ? target.path.advance(record.start.p, progress, kPassed * full_speed * problem_.dt)
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;

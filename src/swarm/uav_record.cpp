@@ -44,8 +44,9 @@ void UavRecord::reset() {
   on_reference = false;
   active.count = 0;
   monitor = OdometryMonitor();
-  unseen = false;
-  last_place.reset();
+  unseen = evades = false;
+  following.reset();
+  aside.reset();
 }
 
 void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
@@ -56,18 +57,23 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
   deviation += kDeviationGain * (measured - deviation);
   const bool rests = expected && measurement.stamp > motions.flown().epoch() + motions.flown().duration();
   const bool is_back = unseen;
-  unseen = false;
-  last_place.reset();
+  unseen = evades = false;
+  aside.reset();
+  if (parameters.limits.latency_compensation) {
+    following.note(measurement, monitor.drift(), motions, parameters.input);
+  }
+  const KinematicState seen = predictFromMeasurement(measurement, epoch);
+  if (following.isSuspected()) setAside(seen, epoch, parameters, bounds);
   off_plan = monitor.noteDeviation(measured.norm(), measurement.stamp, parameters.input);
   const bool moved = rests && measured.norm() > kMoved;
   const bool is_elsewhere = is_back && (motions.empty() || measured.norm() > leastDistanceOff(parameters));
-  if (!moved && (off_plan || is_elsewhere)) {
+  if (!moved && (off_plan || is_elsewhere || following.isOff())) {
     off_plan_distance = measured.norm();
-    startAnew(measurement, epoch, parameters, bounds);
+    startAnew(seen, epoch, parameters, bounds);
     return;
   }
   if (!expected || moved) {
-    start = predictFromMeasurement(measurement, epoch);
+    start = seen;
     if (expected || motions.empty()) {
       motions.clear();
       monitor.forgetMotion();
@@ -85,18 +91,24 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
   }
   // At once if it is far off; if it is off by less, but for long, it may hover while its motions leave.
   const double least_mean = std::max(parameters.limits.tracking_margin, parameters.input.odometry_noise);
-  if (measured.norm() > leastDistanceOff(parameters) || deviation.norm() > least_mean) last_place = measurement.p;
+  if (measured.norm() > leastDistanceOff(parameters) || deviation.norm() > least_mean) {
+    setAside(seen, epoch, parameters, bounds);
+  }
   start = carryDeviation(motions.flown().at(epoch), *expected, measurement, epoch, parameters.input);
 }
 
-void UavRecord::startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
-                          const FlightBounds& bounds) {
-  start = predictFromMeasurement(measurement, epoch);
+void UavRecord::setAside(const KinematicState& measured, double epoch, const Parameters& parameters,
+                         const FlightBounds& bounds) {
   StopManoeuvre stop;
-  planStop(start, parameters.time.sampling_time, relieveBounds(bounds, start, kBoundSlack), stop);
-  CommittedMotion braking;
-  braking.assignStop(epoch, stop);
-  motions.startAnew(braking);
+  planStop(measured, parameters.time.sampling_time, relieveBounds(bounds, measured, kBoundSlack), stop);
+  aside.emplace().assignStop(epoch, stop);
+}
+
+void UavRecord::startAnew(const KinematicState& measured, double epoch, const Parameters& parameters,
+                          const FlightBounds& bounds) {
+  start = measured;
+  setAside(measured, epoch, parameters, bounds);
+  motions.startAnew(*aside);
   monitor.forgetMotion();
   planned = true;
   deviation.setZero();
@@ -106,7 +118,8 @@ void UavRecord::setForeign(bool is_foreign) {
   if (foreign == is_foreign) return;
   foreign = is_foreign;
   unseen = !foreign;  // where it comes from is not what it was to fly
-  last_place.reset();
+  following.reset();
+  aside.reset();
   on_reference = false;
 }
 
@@ -126,11 +139,13 @@ void UavRecord::forgetMotions() {
 void UavRecord::loseSight(const Parameters& parameters) {
   if (unseen) return;
   unseen = true;
-  last_place.reset();
+  if (aside) return;
   const std::optional<UavMeasurement>& seen = monitor.trusted();
   const std::optional<KinematicState> expected =
       seen ? motions.expectedAt(seen->stamp) : std::optional<KinematicState>();
-  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) last_place = seen->p;
+  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) {
+    aside.emplace().assignRest(seen->stamp, seen->p);
+  }
 }
 
 MotionDoubt UavRecord::doubt(const InputParameters& input) const {

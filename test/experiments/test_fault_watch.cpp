@@ -154,13 +154,30 @@ TEST(FaultWatch, DoesNotWaitForAUavThatAnObstacleStoppedBefore) {
   EXPECT_LT(scene.tally(FaultKind::kTracksLost).recovery_time, 1.0);
 }
 
-TEST(FaultWatch, AVehicleHasToStrayForAWhileToBeNoticeable) {
+TEST(FaultWatch, CountsAUavThatWaitsForAnObstacleByItself) {
+  for (const bool waits : {true, false}) {
+    Scene scene({{FaultKind::kTracksLost, "", 3.0, 3.0, 0.0}});
+    scene.flyTo(5.0);
+    scene.set(1, UavState::kFallback, Reason::kPlanRefused);
+    scene.report.uavs[1].refusal = waits ? CheckReason::kRestingPlace : CheckReason::kUav;
+    scene.flyTo(20.0);
+    EXPECT_EQ(scene.watch->summary().waited, waits ? 1u : 0u);
+    EXPECT_EQ(scene.tally(FaultKind::kTracksLost).recovered, waits ? 1u : 0u);
+  }
+}
+
+TEST(FaultWatch, AVehicleHasToStrayForTwoCyclesToBeNoticeable) {
   for (const double away : {0.3, 3.0}) {
-    Scene scene({{FaultKind::kWind, "uav1", 3.0, 4.0, 3.0}});
-    scene.flyTo(3.0);
-    scene.vehicles[0] = QuadSimulator(scene.mission.parameters, Vector3(away, 0.0, 5.0), 0, 0);
-    scene.flyTo(6.5);
-    EXPECT_EQ(scene.tally(FaultKind::kWind).noticeable, away > 1.0 ? 1u : 0u) << away;
+    for (const int cycles : {1, 2}) {
+      Scene scene({{FaultKind::kWind, "uav1", 3.0, 4.0, 3.0}});
+      scene.flyTo(3.1);
+      scene.vehicles[0] = QuadSimulator(scene.mission.parameters, Vector3(away, 0.0, 5.0), 0, 0);
+      scene.flyTo(3.1 + kPeriod * cycles);
+      scene.vehicles[0] = QuadSimulator(scene.mission.parameters, Vector3(0.0, 0.0, 5.0), 0, 0);
+      scene.flyTo(6.5);
+      const bool noticeable = away > 1.0 && cycles > 1;
+      EXPECT_EQ(scene.tally(FaultKind::kWind).noticeable, noticeable ? 1u : 0u) << away << ", " << cycles;
+    }
   }
 }
 

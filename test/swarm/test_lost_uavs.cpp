@@ -151,9 +151,12 @@ TEST(LostUav, IsKeptClearOfWhereItWasSeenLastToo) {
 
 // ---- Off its plan
 
-/// UAV 1 is measured `offset` m beside where it is to be, whatever it is told. Returns how often that was told.
+/// UAV 1 is measured `offset` m beside where it is to be, whatever it is told: with so much noise that may be. Returns
+/// how often that was told.
 int timesOffPlan(double offset, int cycles) {
-  PerfectFlight flight(twoAbreast());
+  Mission mission = twoAbreast();
+  mission.parameters.input.odometry_noise = 0.5;
+  PerfectFlight flight(mission);
   flight.cycles(10);
   int told = 0;
   for (int i = 0; i < cycles; ++i) {
@@ -238,6 +241,45 @@ TEST(Return, FarBehindItsTargetAsksForNothingWild) {
   }
   EXPECT_GT(fastest, 4.0) << "it does not hurry";
   EXPECT_LT(least_lag, 30.0) << "it does not catch up";
+}
+
+// ---- What it does itself
+
+/// A ball of 2 m that comes along x at 1 m/s and is at `passing` at 15 s.
+ScenarioObstacle ballPast(const Vector3& passing) {
+  ScenarioObstacle ball;
+  ball.id = 1;
+  ball.center = passing - Vector3(15, 0, 0);
+  ball.radii = Vector3::Constant(2.0);
+  ball.velocity = Vector3(1, 0, 0);
+  return ball;
+}
+
+/// UAV 0 hovers, and its odometry is lost after a second; then the ball is seen that passes `aside` of it.
+/// Returns how far it goes from its place, and the least room between it and the ball in `room` [m].
+double dodges(double aside, double& room) {
+  const Vector3 place(0, 0, 10);
+  Mission mission = makeTestMission({place}, {place}, 0.0);
+  mission.scenario.obstacles = {ballPast(place + Vector3(0, aside, 0))};
+  PerfectFlight flight(mission);
+  flight.cycles(4);
+  double farthest = 0.0;
+  for (int i = 0; i < 90; ++i) {
+    const CycleReport& report = flight.cycle(lose);
+    EXPECT_EQ(report.uavs[0].state, UavState::kLost) << i;
+    EXPECT_FALSE(isAlarm(report.uavs[0].reason)) << i;
+    EXPECT_TRUE(report.uavs[0].planned || report.uavs[0].reason != Reason::kEvadesUnseen) << "its vehicle has to know";
+    farthest = std::max(farthest, (flight.vehicle(0).p - place).norm());
+  }
+  room = flight.leastObstacleDistance() - mission.parameters.limits.uav_radius;
+  return farthest;
+}
+
+TEST(LostUav, GivesWayToWhatComesWhereItRests) {
+  double room = 0.0;
+  EXPECT_GT(dodges(0.5, room), 0.5);
+  EXPECT_GT(room, 0.0) << "it has been hit where it was to rest";
+  EXPECT_EQ(dodges(6.0, room), 0.0) << "nothing comes: its motion stays as it is";
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ TEST_F(Monitor, NoticesAtOnceThatAFastUavsPositionIsFrozen) {
   EXPECT_EQ(judge(0.3, kPlace, kFast), Reason::kOdometryFrozen);
   EXPECT_EQ(judge(5.0, kPlace, kFast), Reason::kOdometryFrozen);
   EXPECT_EQ(monitor_.trusted()->stamp, kBegin) << "what came later repeats it";
-  EXPECT_EQ(judge(5.3, kPlace + Vector3(15, 0, 0), kFast), Reason::kNone) << "it does not come back";
+  EXPECT_EQ(judge(5.3, kPlace + 5.3 * kFast, kFast), Reason::kNone) << "it does not come back";
 }
 
 TEST_F(Monitor, LetsPositionsPassThatDifferInTheLastBit) {
@@ -108,6 +108,55 @@ TEST_F(Monitor, NoticesAFrozenPositionBesideALiveVelocity) {
 }
 
 // On the ground, motors off, whatever it is told to fly.
+// What comes after it may be another lie, but for what is on the motion.
+TEST_F(Monitor, DoubtsWhereAFrozenPositionGoesOn) {
+  for (const bool back : {true, false}) {
+    monitor_ = OdometryMonitor();
+    motions_.clear();
+    commit(kPlace, kFast);
+    flyTo(kPlace);
+    judge(0.0, kPlace, kFast);
+    ASSERT_EQ(judge(0.3, kPlace, kFast), Reason::kOdometryFrozen);
+    ASSERT_EQ(judge(2.7, kPlace, kFast), Reason::kOdometryFrozen);
+    const Vector3 next = back ? Vector3(kPlace + 3.0 * kFast) : Vector3(kPlace + Vector3(0.1, 0, 0));
+    EXPECT_EQ(judge(3.0, next, kFast), back ? Reason::kNone : Reason::kOdometryJumps);
+  }
+}
+
+// It stands on its way, where it has stopped on its own meanwhile; but not at the end of a jump.
+TEST_F(Monitor, BelievesAUavThatHasStoppedWhileItsOdometryLied) {
+  for (const double aside : {0.2, 2.0}) {
+    monitor_ = OdometryMonitor();
+    motions_.clear();
+    commit(kPlace, kFast);
+    flyTo(kPlace);
+    const Vector3 jump(0, 20, 0);
+    for (double t = 0.0; t < 0.7; t += 0.3) EXPECT_EQ(judge(t, kPlace + t * kFast, kFast), Reason::kNone);
+    const Vector3 stand = kPlace + 0.9 * kFast + Vector3(0, aside, 0);
+    for (double t = 0.9; t < 2.5; t += 0.3) {
+      EXPECT_EQ(judge(t, stand + jump + 0.01 * t * kFast, Vector3::Zero()), Reason::kOdometryJumps);
+    }
+    for (double t = 2.7; t < 5.0; t += 0.3) {
+      const bool believed = aside < 1.0 && t > 3.65;  // after a second
+      EXPECT_EQ(judge(t, stand + 0.01 * t * kFast, Vector3::Zero()), believed ? Reason::kNone : Reason::kOdometryJumps);
+    }
+  }
+}
+
+// The UAV is where it is to be; its odometry has led its motion astray by what has been taken for noise until then.
+TEST_F(Monitor, DoesNotBelieveADriftAgainThatGoesOn) {
+  commit(kPlace, kFast);
+  flyTo(kPlace);
+  bool told = false;
+  for (double t = 0.0; t < 5.5; t += 0.3) {
+    const Reason reason = judge(t, kPlace + t * (kFast + Vector3(0, 0.8, 0)), kFast);
+    EXPECT_TRUE(!told || reason == Reason::kOdometryDrifts) << t;
+    told = reason == Reason::kOdometryDrifts;
+  }
+  EXPECT_TRUE(told);
+  EXPECT_EQ(judge(5.7, kPlace + 5.7 * kFast, kFast), Reason::kNone) << "its end";
+}
+
 TEST_F(Monitor, LetsAUavRestThatHasNotSetOffYet) {
   commit(kPlace, kFast);
   for (int i = 0; i < 100; ++i) ASSERT_EQ(judge(kCycle * i, kPlace, Vector3::Zero()), Reason::kNone) << i;

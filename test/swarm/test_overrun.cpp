@@ -101,5 +101,30 @@ TEST(Overrun, LetsThoseWhoWereSkippedComeFirst) {
   for (std::size_t i = 0; i < kCount; ++i) EXPECT_GE(turns[i], 100 / static_cast<int>(kCount)) << "UAV " << i;
 }
 
+// What its motion was checked against is not what is seen now: it does not fly on into that.
+TEST(Overrun, DoesNotKeepAUavFromBraking) {
+  for (const bool appears : {true, false}) {
+    Mission mission = twoAbreast();
+    PerfectFlight flight(mission);
+    flight.cycles(10);
+    const auto see = [&](Snapshot& snapshot) {
+      if (!appears) return;
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Vector3 ahead = flight.vehicle(i).p + Vector3(9, 0, 0);
+        const Vector3 two = Vector3::Constant(2.0);
+        snapshot.obstacles.push_back(
+            {Superellipsoid(static_cast<int>(i), ahead, two, two, 0.0, Vector3::Zero()), snapshot.now});
+      }
+    };
+    const CycleReport& report = flight.cycle(see, 0.0);
+    ASSERT_TRUE(report.out_of_time);
+    const std::size_t skipped = report.uavs[0].overrun ? 0 : 1;
+    ASSERT_TRUE(report.uavs[skipped].overrun);
+    EXPECT_EQ(report.uavs[skipped].reason, appears ? Reason::kBraking : Reason::kOverrun);
+    const CommittedMotion& motion = flight.planner().committed(skipped);
+    EXPECT_EQ((motion.restingPlace() - flight.vehicle(skipped).p).norm() < 6.0, appears);
+  }
+}
+
 }  // namespace
 }  // namespace swarm_planner

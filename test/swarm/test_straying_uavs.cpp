@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "perfect_flight.hpp"
 
@@ -39,6 +40,72 @@ TEST(StrayingUav, ThatHoversInsteadOfFlyingIsKeptClearOf) {
 }
 
 TEST(StrayingUav, ThatNobodyMeasuresIsFlownInto) { EXPECT_LT(leastDistanceFromTheOneThatHovers(false), 1.0); }
+
+/// UAV 0 flies ahead along x and, at x = 9 m, brakes on its own with 3 m/s^2 and hovers; its odometry tells. UAV 1
+/// flies in `column` along x behind it, or crosses its way. Returns how close they come, less the pair distance.
+double leastRoomBesideAStop(bool column, double noise) {
+  const Vector3 start = column ? Vector3(-9, 0, 10) : Vector3(10.5, -20, 10);
+  const Vector3 end = column ? Vector3(51, 0, 10) : Vector3(10.5, 40, 10);
+  Mission mission = makeTestMission({Vector3(0, 0, 10), start}, {Vector3(60, 0, 10), end}, 3.0);
+  mission.parameters.input.odometry_noise = noise;
+  PerfectFlight flight(mission);
+  std::optional<KinematicState> stop;
+  double since = 0.0;
+  const auto place = [&](double t) {
+    if (!stop) return flight.vehicle(0, t);
+    const double left = std::max(stop->v.norm() - 3.0 * (t - since), 0.0);  // of its speed
+    const Vector3 heading = stop->v.normalized();
+    const double way = (stop->v.squaredNorm() - left * left) / 6.0;
+    return KinematicState{stop->p + way * heading, left * heading, Vector3::Zero()};
+  };
+  double least = 1e9;
+  double tremble = 0.001;
+  for (int i = 0; i < 40; ++i) {
+    if (!stop && flight.vehicle(0).p.x() > 9.0) {
+      stop = flight.vehicle(0);
+      since = flight.now();
+    }
+    flight.cycle([&](Snapshot& snapshot) {
+      const KinematicState x = place(snapshot.now);
+      snapshot.uavs[0].p = x.p + Vector3(0, 0, stop ? tremble = -tremble : 0.0);
+      snapshot.uavs[0].v = x.v + Vector3(0, 0, tremble);
+    });
+    for (double t = flight.now(); t < flight.now() + 0.3; t += 0.05) {
+      least = std::min(least, (flight.vehicle(1, t).p - place(t).p).norm());
+    }
+  }
+  EXPECT_TRUE(stop);
+  return least - mission.parameters.limits.pair_distance;
+}
+
+TEST(StrayingUav, ThatStopsOnItsOwnIsKeptClearOf) {
+  for (const bool column : {false, true}) EXPECT_GT(leastRoomBesideAStop(column, 0.15), 0.0) << column;
+}
+
+TEST(StrayingUav, IsFlownIntoWhereNoiseMayBeSoLargeThatItDoesNotShow) {
+  EXPECT_LT(std::min(leastRoomBesideAStop(false, 20.0), leastRoomBesideAStop(true, 20.0)), 0.0);
+}
+
+TEST(StrayingUav, IsToldOfAndItsPlansBeginWhereItIs) {
+  PerfectFlight flight(makeTestMission({Vector3(0, 0, 10)}, {Vector3(60, 0, 10)}, 3.0));
+  flight.cycles(10);
+  const Vector3 place = flight.vehicle(0).p;
+  double tremble = 0.001;
+  int told = 0;
+  for (int i = 0; i < 20; ++i) {
+    const CycleReport& report = flight.cycle([&](Snapshot& snapshot) {
+      snapshot.uavs[0].p = place + Vector3(0, 0, tremble = -tremble);
+      snapshot.uavs[0].v = Vector3(0, 0, tremble);
+    });
+    told += report.uavs[0].reason == Reason::kNotFollowing ? 1 : 0;
+    if (i < 3) continue;
+    // Should it fly again, what it is told must not be elsewhere.
+    EXPECT_LT((flight.planner().committed(0).at(flight.now()).p - place).norm(), 0.7) << i;
+  }
+  EXPECT_GT(told, 15);
+  flight.cycles(10);
+  EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kNone) << "it flies again";
+}
 
 // Blown out of the workspace: it may not go farther, and has to be able to come back.
 TEST(StrayingUav, OutsideTheWorkspaceComesBack) {

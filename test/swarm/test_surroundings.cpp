@@ -243,21 +243,21 @@ TEST_F(SurroundingsTest, FindNeighboursByTheOlderMotionToo) {
 // A UAV that is not seen: farther off, at once and more later, and where it was seen last.
 TEST_F(SurroundingsTest, KeepFartherFromAUavThatIsNotSeen) {
   const MotionDoubt doubt{kEpoch - 1.0, 0.4, 3.0};
-  const auto surroundingsWith = [&](const std::optional<Vector3>& last_place, bool is_lost) {
+  const auto surroundingsWith = [&](const CommittedMotion* aside, bool is_lost) {
     Surroundings surroundings = makeSurroundings(2);
     surroundings.setMotions(1, resting(Vector3(0, 5, 0)), nullptr);
-    if (is_lost) surroundings.setDoubt(1, doubt, last_place);
+    if (is_lost) surroundings.setDoubt(1, doubt, aside);
     surroundings.findNeighbours();
     return surroundings;
   };
-  Surroundings seen = surroundingsWith({}, false);
+  Surroundings seen = surroundingsWith(nullptr, false);
   ASSERT_EQ(collected(seen).size(), 1U);
   const double distance = flight_.problem.bodies[0].distance();
   CheckSurroundings check;
   seen.collect(0, check);
   EXPECT_TRUE(check.uavs[0].doubt.isNone());
 
-  Surroundings lost = surroundingsWith(Vector3(0, 9, 0), true);
+  Surroundings lost = surroundingsWith(&resting(Vector3(0, 9, 0)), true);
   ASSERT_EQ(collected(lost).size(), 2U);
   const MovingBody& body = flight_.problem.bodies[0];
   EXPECT_NEAR(body.distance(), distance + 0.4, 1e-12);
@@ -269,7 +269,7 @@ TEST_F(SurroundingsTest, KeepFartherFromAUavThatIsNotSeen) {
   ASSERT_EQ(check.uavs.size(), 2U);
   for (const OtherMotion& other : check.uavs) EXPECT_EQ(other.doubt.limit, 3.0);
   EXPECT_EQ(check.uavs[1].motion->restingPlace(), Vector3(0, 9, 0));
-  EXPECT_EQ(surroundingsWith({}, true).neighbours().size(), 2U);
+  EXPECT_EQ(surroundingsWith(nullptr, true).neighbours().size(), 2U);
 }
 
 // Only the doubt brings the two together.
@@ -278,7 +278,7 @@ TEST_F(SurroundingsTest, FindNeighboursByTheDoubtToo) {
   for (const double limit : {0.0, 5.0}) {
     Surroundings surroundings = makeSurroundings(2);
     surroundings.setMotions(1, resting(Vector3(0, reach + 5.0, 0)), nullptr);
-    surroundings.setDoubt(1, {kEpoch, 1.0, limit}, {});
+    surroundings.setDoubt(1, {kEpoch, 1.0, limit}, nullptr);
     surroundings.findNeighbours();
     CheckSurroundings check;
     surroundings.collect(0, check);

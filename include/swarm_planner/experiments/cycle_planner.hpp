@@ -34,6 +34,8 @@ class IterativePlanner : public CyclePlanner {
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
     planner_.setReference(uav, path, start, speed);
   }
+  /// See SwarmPlanner::command().
+  CommandAnswer command(std::size_t uav, FlightCommand command) { return planner_.command(uav, command); }
 
  private:
   const Mission& mission_;

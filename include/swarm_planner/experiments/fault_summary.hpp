@@ -33,6 +33,7 @@ struct FaultSummary {
   std::vector<FaultTally> kinds;  ///< those that were injected
   std::vector<FaultMiss> misses;  ///< by time
   double recovery_time = 0.0;     ///< longest of all [s]
+  std::size_t waited = 0;         ///< UAVs that waited for an obstacle when they could have flown again
 };
 
 /// What else is told of a rehearsal.

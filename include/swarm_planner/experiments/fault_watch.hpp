@@ -15,17 +15,22 @@ namespace swarm_planner {
 ///   - odometry that cannot be used, once two cycles have met it (lost odometry: after odometry_timeout);
 ///   - odometry in whose place the fault makes a difference beyond what noise is taken for, two tracking margins, once
 ///     two cycles have met it (frozen odometry: after odometry_timeout);
-///   - a vehicle farther than two tracking margins from the motion that it should fly for kStrayTime: less cannot be
-///     told from wind and noise, as the planner averages over some cycles.
+///   - a vehicle that is off the motion that it should fly, and the one before, by more than noise and tracking
+///   explain,
+///     in position or velocity (FollowingWatch), to the same side in kStrayCycles cycles in a row: less cannot be told
+///     from a gust or a push. One that rests where it is to rest, or flies on as its newest trajectory would have it,
+///     does not show.
 /// What concerns the whole swarm is not reported for a UAV and never counts as noticeable.
 ///
 /// A UAV flies again when a new plan for it begins and its state is TRACKING; the time counts from the end of the last
-/// of the faults that concerned it and overlapped. A UAV that was not tracking anyway when the fault began, because an
-/// obstacle is in its way, is not waited for.
+/// of the faults that concerned it and overlapped. It also does when it is planned for, flies a motion that passes the
+/// check, and new plans are refused for nothing but an obstacle that will come to where they rest: faults have no part
+/// in that. Such recoveries are counted by themselves. For the same reason a UAV that was not tracking anyway when the
+/// fault began is not waited for.
 class FaultWatch : public RunObserver {
  public:
-  static constexpr double kReportTime = 1.0;    ///< [s]
-  static constexpr double kStrayTime = 1.5;     ///< [s]
+  static constexpr double kReportTime = 1.0;  ///< [s]
+  static constexpr int kStrayCycles = 2;
   static constexpr double kRecoveryTime = 5.0;  ///< longer is listed among the misses [s]
 
   /// All must outlive the watch. No heap allocation afterwards.
@@ -44,16 +49,18 @@ class FaultWatch : public RunObserver {
     int met = 0;                      ///< cycles that had to see it
     Vector3 place = Vector3::Zero();  ///< of the vehicle when it began [m]
     double moved = 0.0;               ///< farthest from there until two cycles before its end [m]
-    double strayed_since = 0.0, strayed_for = 0.0;
-    bool strays = false;
+    int strays = 0;                   ///< cycles in a row that have found the vehicle off its motion, to the same side
+    int strayed = 0;                  ///< the most of them
+    Vector3 side = Vector3::Zero();   ///< in the last of them [m]
     double first_report = 0.0;
     bool reported = false;
     double recovery_time = 0.0;
     std::size_t waiting = 0;  ///< UAVs that have not recovered yet
   };
   struct Uav {
-    CommittedMotion due, next;  ///< due: is flown until the epoch of the next one
-    bool has_due = false, has_next = false;
+    CommittedMotion due, before;  ///< made in the last cycle, and in that before
+    bool has_due = false, has_before = false;
+    QuadState state;              ///< of the vehicle, at the last sample
     bool tracks = false;          ///< in the last cycle
     double clear_at = 0.0;        ///< end of the last fault that has begun
     bool waiting = false;         ///< has not flown since
@@ -62,7 +69,7 @@ class FaultWatch : public RunObserver {
 
   double twoCycles() const { return 2.0 * parameters_.time.cycle_period; }  ///< [s]
   bool concerns(const Record& record, std::size_t uav) const { return record.uav == uav || record.uav == uavs_.size(); }
-  void watchVehicle(Record& record, double t, const QuadSimulator& vehicle) const;
+  void watchVehicle(Record& record, double now) const;
   void begin(Record& record);
   void recover(std::size_t uav, double epoch);
   /// When the planner can see the fault at the earliest [s].
@@ -75,6 +82,7 @@ class FaultWatch : public RunObserver {
   std::vector<Uav> uavs_;
   std::size_t begun_ = 0;     ///< records that have begun
   std::size_t finished_ = 0;  ///< so many of the first ones need no more watching
+  std::size_t waited_ = 0;    ///< recoveries of UAVs that wait for an obstacle
 };
 
 /// Whether a reason tells of a vehicle, its odometry or its setpoints, and not of planning alone.

@@ -37,6 +37,8 @@ class CommittedMotion {
   void assignPoints(double epoch, double dt, int pieces, const Vector3* points);
   /// Forgets the first `count` pieces (at most all): what is left begins at a later epoch.
   void dropPieces(int count);
+  /// Forgets the pieces that have ended by `t` [s]; a rest begins anew there.
+  void moveTo(double t);
 
   double epoch() const { return epoch_; }  ///< [s]
   double dt() const { return dt_; }        ///< length of a piece [s]

@@ -48,7 +48,10 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
-  kTakingOver,  ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kTakingOver,    ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kNotFollowing,  ///< the vehicle does not do what it is told; planned for from where it is
+  kGivesWay,      ///< an obstacle will come to where it could rest: goes to a place beside its way
+  kEvadesUnseen,  ///< without odometry: a new motion, because the one before was not clear any more
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
@@ -68,6 +71,7 @@ struct UavReport {
   double solve_time = 0.0;  ///< [s] of wall clock
   int sqp_iterations = 0;
   int qp_iterations = 0;
+  bool overrun = false;                          ///< its turn did not come
   bool solved = false;                           ///< a QP had an answer
   CheckReason refusal = CheckReason::kAccepted;  ///< of the solver's plan; the check may have passed a shorter step
   bool stays = false;      ///< of the solver's plan nothing passed: the motion goes on from where the UAV will be

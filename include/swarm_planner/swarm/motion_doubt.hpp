@@ -15,6 +15,12 @@ struct MotionDoubt {
   bool isNone() const { return !(limit > 0.0); }
   /// At absolute time `t` [s]; in metres.
   double at(double t) const { return std::clamp(rate * (t - since), 0.0, limit); }
+  /// No less than this one and `other` together at any time.
+  MotionDoubt with(const MotionDoubt& other) const {
+    if (isNone()) return other;
+    if (other.isNone()) return *this;
+    return {std::min(since, other.since), rate + other.rate, limit + other.limit};
+  }
   /// `share` of it at every time.
   MotionDoubt times(double share) const { return {since, share * rate, share * limit}; }
 };

@@ -16,8 +16,8 @@ namespace swarm_planner {
 ///
 ///  - frozen: the position stays the same to the last bit while stamps go on, though the velocity in the same message,
 ///    unchanged too, has carried the UAV by more than 2 n; or for T after its motion has moved by more than 2 n.
-///    Whoever is to rest may rest, without noise for ever, and so may who has not yet left the ground. Ends with the
-///    first new position; against the motion alone after relocalisation_time, too.
+///    Whoever is to rest may rest, without noise for ever, and so may who has not yet left the ground. Ends with a new
+///    position, which is judged as after a jump; against the motion alone after relocalisation_time, too.
 ///  - jumps: no flight leads from the last measurement that was believed (p0, v0) to this one (p1, v1), dt later. One
 ///    that does has |p1 - p0| <= 1.2 dt max(max_speed, |v0|, |v1|) + 7 n and, as accelerations are at most
 ///    A = max_thrust_ratio g, |p1 - p0 - dt (v0 + v1) / 2| <= A dt^2 / 4 + 7 n. Normal noise of standard deviation n on
@@ -25,9 +25,11 @@ namespace swarm_planner {
 ///  - stamps go back: the same, told by its own reason.
 ///  - drifts: the position does not follow the velocity: p1 - p0 - dt (v0 + v1) / 2, summed up over the measurements of
 ///    some 5 s, exceeds 7 n. A UAV that is pushed or blown off has both.
-///    After any of these three a measurement is believed that lies within 3 n of where the motion, or the motion with
-///    the deviation that was there before, has the UAV (without a motion: that a flight within T leads to); and any,
-///    once measurements have fitted each other for relocalisation_time: an estimator that has found its place anew.
+///    After any of these a measurement is believed that lies within 3 n of where the motion, or the motion with the
+///    deviation that was there before (without what has drifted), has the UAV (without a motion: that a flight within T
+///    leads to); one that has stood for T where the motion has led since, once the source does not go on where it
+///    was: the vehicle has stopped on its own; and any, once measurements have fitted each other for
+///    relocalisation_time: an estimator that has found its place anew.
 ///  - off plan: farther than off_plan_distance from its motion in all measurements of a time T.
 class OdometryMonitor {
  public:
@@ -44,6 +46,8 @@ class OdometryMonitor {
 
   /// The last measurement that could be planned from; empty if there has been none.
   const std::optional<UavMeasurement>& trusted() const { return trusted_; }
+  /// By how much positions have left the way that the velocities tell, in the last seconds up to that one [m].
+  const Vector3& drift() const { return drift_; }
 
  private:
   Reason compare(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);
@@ -51,6 +55,8 @@ class OdometryMonitor {
   bool follows(const UavMeasurement& measurement, const Parameters& parameters);
   /// Whether a doubted UAV is again where it is to be.
   bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters) const;
+  /// Whether it has stood for odometry_doubt_time where its motion has led since it was believed last.
+  bool hasStoodOnWay(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
   void trust(const UavMeasurement& measurement, const MotionMemory& motions);
   bool isFrozen(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
 
@@ -66,6 +72,8 @@ class OdometryMonitor {
   std::optional<Vector3> held_expected_;   ///< where the motion had the UAV then [m]
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
+  bool source_changed_ = false;            ///< between two doubted ones, once
+  std::optional<UavMeasurement> stood_;    ///< the first of those since then that stand in one place on its way
   Reason fault_ = Reason::kNone;           ///< why they are doubted
   std::optional<double> off_plan_since_;   ///< [s]
 };

@@ -32,9 +32,9 @@ class Surroundings {
   /// newest one's sends others. Both have to outlive the cycle.
   void setMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
 
-  /// The UAV, whose motions are set, is not seen: it may be off them by `doubt`. `last_place`: where it was seen last,
-  /// if others are to keep clear of that too [m].
-  void setDoubt(std::size_t uav, const MotionDoubt& doubt, const std::optional<Vector3>& last_place);
+  /// The UAV, whose motions are set, is not seen, or seen off them: it may be off them by `doubt`. `aside`: what it may
+  /// fly instead, if others are to keep clear of that too; it must outlive the cycle.
+  void setDoubt(std::size_t uav, const MotionDoubt& doubt, const CommittedMotion* aside);
 
   /// The same in the course of the cycle, for a UAV that has its new motion; within the area that others were told of.
   void replaceMotions(std::size_t uav, const CommittedMotion& newest, const CommittedMotion* older);
@@ -65,11 +65,11 @@ class Surroundings {
     const CommittedMotion* older = nullptr;
     Box box;              ///< of all motions, with the doubt [m]
     MotionDoubt doubt{};  ///< of each
-    int last_place = -1;  ///< index of a rest where it was seen last; negative: none
+    int aside = -1;       ///< index of what it may fly instead; negative: nothing
   };
-  /// A rest where a UAV was seen last.
-  struct LastPlace {
-    CommittedMotion motion;
+  /// What a UAV that is off its motions may fly instead.
+  struct Aside {
+    const CommittedMotion* motion = nullptr;
     PredictedMotion prediction;
   };
 
@@ -88,7 +88,7 @@ class Surroundings {
   std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedObstacle> checked_obstacles_;
   std::vector<Motions> motions_;
-  std::vector<LastPlace> last_places_;
+  std::vector<Aside> asides_;
   std::vector<PredictedMotion> predictions_;  ///< of the newest motions
   std::vector<Box> areas_;                    ///< where each UAV may be, grown by half the pair distance [m]
   NeighbourLists neighbours_;

@@ -26,7 +26,24 @@ class UavPlanner {
   /// A motion for `epoch` from record.start on. `uav`: its index in `surroundings`, which learns of the new motion.
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
+  /// For a UAV whose turn does not come any more: its motion goes on if that still passes the check. Otherwise it
+  /// brakes, or flies what falls short least.
+  void goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
+
+  /// For a UAV that is not seen: its motion goes on if that still passes the check. Otherwise a plan to where it was to
+  /// rest, from where its motion has it, or what flies without a plan. report.planned only if it has a new motion.
+  void keepClear(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
+
  private:
+  /// What all of the above begin with.
+  void survey(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
+  void publish(std::size_t uav, double epoch, const UavRecord& record, Surroundings& surroundings) const;
+  /// Solves for a rest at `place`, with all that propose() does. True if a plan is committed.
+  bool goTo(const Vector3& place, std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+            UavReport& report);
+  /// Goes to beside the way of the obstacle that will come to where `kept_` rests. True if a plan is committed.
+  bool giveWay(const CheckVerdict& verdict, std::size_t uav, double epoch, UavRecord& record,
+               const Surroundings& surroundings, UavReport& report);
   /// A new plan, or what flies without one; the reason why it does.
   Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings, UavReport& report);
   /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
@@ -43,7 +60,11 @@ class UavPlanner {
   /// of a plan as that motion has.
   void limitDoubts(double epoch, const CommittedMotion& flown);
   /// Without a plan that passed: what flies, and why.
-  Reason fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
+  Reason fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                  UavReport& report);
+  /// Braking at once if that passes the check. Otherwise what falls short least: `kept` is the verdict on `kept_`.
+  Reason brake(const CheckVerdict& kept, std::size_t uav, double epoch, UavRecord& record,
+               const Surroundings& surroundings);
   void fillReport(double epoch, const UavRecord& record, UavReport& report);
 
   /// What was active in the last plan's QP, moved on to `epoch`.
@@ -69,6 +90,8 @@ class UavPlanner {
   double proposal_conflict_ = 0.0;  ///< when it was refused for what happens at its rest [s]
   CommittedMotion kept_;
   CommittedMotion stop_;
+  MovingTarget detour_;  ///< a place to rest at instead of what the UAV is to follow
+  bool on_detour_ = false;
 };
 
 }  // namespace swarm_planner

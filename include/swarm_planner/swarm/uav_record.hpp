@@ -8,6 +8,7 @@
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 #include "swarm_planner/swarm/flight_task.hpp"
+#include "swarm_planner/swarm/following_watch.hpp"
 #include "swarm_planner/swarm/motion_doubt.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
 #include "swarm_planner/swarm/odometry_monitor.hpp"
@@ -36,9 +37,12 @@ struct UavRecord {
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it
   bool unseen = false;   ///< its odometry could not be planned from in the last cycle, or it has joined since
-  std::optional<Vector3> last_place;  ///< where it was seen last, if that was not on its motion [m]
-  bool off_plan = false;              ///< planned for anew in this cycle: it was far off its motion for long
-  double off_plan_distance = 0.0;     ///< so far [m]
+  FollowingWatch following;
+  /// A stop from where it was seen last, which it may fly instead of its motion: it was not on that.
+  std::optional<CommittedMotion> aside;
+  bool evades = false;             ///< it has a new motion since it was seen last
+  bool off_plan = false;           ///< planned for anew in this cycle: it was far off its motion for long
+  double off_plan_distance = 0.0;  ///< so far [m]
 
   void setReference(const std::vector<Vector3>& path, double arc_length, double speed);
   /// The target stays where it is at `t` [s], until its time zero is set anew.
@@ -63,7 +67,9 @@ struct UavRecord {
   MotionDoubt doubt(const InputParameters& input) const;
 
  private:
-  void startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
+  /// Others keep clear of it from the measured state on, too.
+  void setAside(const KinematicState& measured, double epoch, const Parameters& parameters, const FlightBounds& bounds);
+  void startAnew(const KinematicState& measured, double epoch, const Parameters& parameters,
                  const FlightBounds& bounds);
 };
 
