@@ -209,6 +209,8 @@ void Parser::readOption(const std::string& option) {
     options_.seeds = seedRange(option, value(option));
   } else if (option == "--threads") {
     options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
+  } else if (option == "--shortest-paths") {
+    options_.shortest_paths = true;
   } else if (option == "--without") {
     leaveOut(value(option));
   } else if (const auto disturbance = kDisturbances.find(option); disturbance != kDisturbances.end()) {
@@ -327,6 +329,8 @@ options:
   --seeds A:B          a run for each seed from A to B
   --perturbation P     circle_swap, gap, box_head_on, u_trap, same_goal: seeds other than 0 move starts and goals by
                        up to P [m] along each axis, 0.1 if not given
+  --shortest-paths     compare the flown paths with the shortest ones around standing obstacles; takes seconds for each
+                       UAV that has to go round some
   --without WHAT       negative control: leave out (several: with commas, or the option again)
                          check      plans fly unchecked
                          segments   constraints hold at the samples alone, not between them

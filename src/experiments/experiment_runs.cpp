@@ -31,7 +31,7 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
       const Mission mission = loadMission(file, given);
       std::vector<std::uint64_t> seeds = options.seeds;
       if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
-      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed, {}});
+      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed, options.shortest_paths, {}});
     } catch (const ConfigError& error) {
       faults += faults.empty() ? "" : "\n";
       faults += error.what();
@@ -43,7 +43,7 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
 
 /// Scenarios that a generator makes; the command's name stands for the file in faults.
 ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
-  return {makeMission(scenario, given, scenario.name), seed, {}};
+  return {makeMission(scenario, given, scenario.name), seed, false, {}};
 }
 
 /// 10 m, and from 20 UAVs on as much as leaves them 3 m of it each.
@@ -105,6 +105,7 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
       runs.push_back(options.command == ExperimentCommand::kRehearse
                          ? rehearsalRun(uavs, kHour * options.hours, seed, given)
                          : generatedRun(generated(options, uavs, seed), seed, given));
+      runs.back().shortest_paths = options.shortest_paths;
     }
   }
   return runs;

@@ -51,7 +51,8 @@ struct ExperimentOptions {
   std::vector<std::uint64_t> seeds;
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
-  std::optional<int> threads;  ///< of the planner
+  bool shortest_paths = false;  ///< flown paths are measured against them
+  std::optional<int> threads;   ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;
   std::optional<std::string> parameter_file;
