@@ -11,6 +11,7 @@ namespace swarm_planner {
 
 namespace {
 
+constexpr int kLeastUavs = 6;                   ///< in a room with columns
 constexpr double kAreaPerUav = 1.6;             ///< [m^2]
 constexpr double kFloor = 0.1, kCeiling = 2.2;  ///< of the room [m]
 constexpr double kSpeed = 1.5;                  ///< of UAVs and of their targets [m/s]
@@ -56,7 +57,7 @@ ScenarioObstacle column(int id, const Vector3& center) {
 }  // namespace
 
 Scenario denseRoom(int uavs, std::uint64_t seed) {
-  if (uavs < 1) throw std::invalid_argument("dens: at least one UAV is needed");
+  if (uavs < kLeastUavs) throw std::invalid_argument("dens: expected 6 UAVs or more, smaller rooms are all columns");
   constexpr double kHeight = 0.5, kColumnHeight = 1.0;  // [m]
   const double half_side = roundedToMillimetre(0.5 * std::sqrt(kAreaPerUav * uavs));
   Scenario scenario = emptyRoom("dens", uavs, half_side, seed);

@@ -253,7 +253,7 @@ TEST_P(Rooms, HaveTheSameSpaceForEachUav) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, Rooms, testing::Values(1, 6, 12, 16, 32, 64));
+INSTANTIATE_TEST_SUITE_P(Sizes, Rooms, testing::Values(6, 12, 16, 32, 64));
 
 TEST(CircleSwapSeeds, ThePerturbationIsAsLargeAsTold) {
   double most = 0.0;
@@ -274,7 +274,7 @@ TEST(Generators, RefuseNonsense) {
   EXPECT_THROW(boxHeadOn(4, -0.1, 0), std::invalid_argument);
   EXPECT_THROW(uTrap(0, 0.1, 0), std::invalid_argument);
   EXPECT_THROW(sameGoal(3, std::nan(""), 0), std::invalid_argument);
-  EXPECT_THROW(denseRoom(0, 0), std::invalid_argument);
+  EXPECT_THROW(denseRoom(5, 0), std::invalid_argument);
   EXPECT_THROW(swapInRoom(0, 0), std::invalid_argument);
 }
 

@@ -42,8 +42,8 @@ Scenario uTrap(int uavs, double perturbation, std::uint64_t seed);
 /// `uavs` UAVs from a circle of 10 m radius are sent to its middle. One can get there: the run ends after 40 s.
 Scenario sameGoal(int uavs, double perturbation, std::uint64_t seed);
 
-/// A room of 1.6 m^2 and 1.6 columns per UAV: `uavs` UAVs of radius 0.1 m fly at 0.5 m height from random starts to
-/// random goals.
+/// A room of 1.6 m^2 and 1.6 columns per UAV: `uavs` UAVs, six or more, of radius 0.1 m fly at 0.5 m height from random
+/// starts to random goals.
 Scenario denseRoom(int uavs, std::uint64_t seed);
 
 /// `uavs` UAVs of radius 0.1 m on a circle with 1.6 m^2 per UAV, at 0.8 to 1.2 m height, change places with their
