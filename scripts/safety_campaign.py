@@ -1,23 +1,16 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
-"""Flies the safety campaign of scripts/safety, which passes its options on, and prints its table.
-
-Every experiment is a call of swarm_experiment over a range of seeds. The range is cut into chunks, two of which fly at
-the same time: flights do not depend on what else runs, and their planning times are not looked at here.
-"""
+"""Flies the safety campaign of scripts/safety, which passes its options on, and prints its table."""
 import argparse
 import collections
-import concurrent.futures
 import dataclasses
-import json
 import pathlib
 import shutil
-import subprocess
 import sys
-import tempfile
 
-PROCESSES = 2
-CHUNK = 20  # flights per call of the program
+sys.dont_write_bytecode = True  # nothing is left among the sources
+import campaign
+
 LATENCIES = (0.0, 0.1, 0.3)  # [s]
 SCENARIO_LATENCIES = (0.0, 0.1)  # [s] of files given by the user
 DISTURBANCES = ("--drop", "0.2", "--noise", "0.05")  # noise in m and m/s
@@ -36,6 +29,7 @@ class Experiment:
     disturbed: bool = True
     without: str = ""
     ends_at_goals: bool = True
+    first_seed: int = 0
 
     def title(self):
         return self.name + (f" without {self.without}" if self.without else "")
@@ -52,11 +46,12 @@ class Experiment:
             words += ["--without", self.without]
         return words
 
-    def chunks(self):
-        return [(first, min(first + CHUNK, self.seeds) - 1) for first in range(0, self.seeds, CHUNK)]
+    def summary(self, runs):
+        collisions = sum(run["collisions"] for run in runs)
+        return f"{self.title()}, latency {self.latency:g} s: {collisions} collisions"
 
 
-def campaign(options):
+def experiments_of(options):
     studies = [
         ("circle_swap", ["circle_swap", "--uavs", "10", "--radius", "10"]),
         ("crossing", ["fly", options.crossing]),
@@ -78,17 +73,6 @@ def campaign(options):
         for study in studies
     ]
     return experiments
-
-
-def fly(program, experiment, seeds):
-    """The runs of a range of seeds, as swarm_experiment reports them."""
-    with tempfile.TemporaryDirectory() as directory:
-        results = pathlib.Path(directory, "results.json")
-        command = [program, *experiment.command(*seeds), "--json", str(results)]
-        done = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(command)}\n{done.stderr}")
-        return json.loads(results.read_text())
 
 
 def least(runs, key):
@@ -147,63 +131,14 @@ def row(experiment, runs, legend):
     ]
 
 
-def aligned(rows):
-    """Columns as wide as they need to be; the first and the last are aligned left, numbers right."""
-    widths = [max(len(cells[i]) for cells in rows) for i in range(len(HEADER))]
-    lines = []
-    for cells in rows:
-        texts = [cell.rjust(width) for cell, width in zip(cells, widths)]
-        texts[0] = cells[0].ljust(widths[0])
-        texts[-1] = cells[-1]
-        lines.append("  ".join(texts))
-    return "\n".join(lines)
-
-
-def fly_campaign(options):
-    """(experiment, its runs) for each, in order; the results are kept in options.output_dir as they come."""
-    experiments = campaign(options)
-    flights = sum(experiment.seeds for experiment in experiments)
-    flown = []
-    with concurrent.futures.ThreadPoolExecutor(PROCESSES) as pool:
-        pending = [
-            [pool.submit(fly, options.program, experiment, seeds) for seeds in experiment.chunks()]
-            for experiment in experiments
-        ]
-        done = 0
-        line_start = "\r" if sys.stdout.isatty() else ""  # over the progress
-        try:
-            for experiment, chunks in zip(experiments, pending):
-                runs = []
-                for chunk in chunks:
-                    runs += chunk.result()
-                    if line_start:
-                        print(f"{line_start}{done + len(runs):5d}/{flights}", end="", flush=True)
-                done += len(runs)
-                (options.output_dir / experiment.file_name()).write_text(json.dumps(runs, indent=1) + "\n")
-                collisions = sum(run["collisions"] for run in runs)
-                what = f"{experiment.title()}, latency {experiment.latency:g} s: {collisions} collisions"
-                print(f"{line_start}{done:5d}/{flights} flights  {what}", flush=True)
-                flown.append((experiment, runs))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
-    return flown
-
-
-def flight_count(text):
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f'expected a whole number >= 1, not "{text}"')
-    return int(text)
-
-
 def main():
     usage = "scripts/safety [--scenarios N] [--seeds N] [SCENARIO.yaml ...]"
     parser = argparse.ArgumentParser(prog="scripts/safety", usage=usage, add_help=False)
     parser.add_argument("program")
     parser.add_argument("crossing")
     parser.add_argument("output_dir")
-    parser.add_argument("--scenarios", type=flight_count, default=1000)
-    parser.add_argument("--seeds", type=flight_count, default=100)
+    parser.add_argument("--scenarios", type=campaign.flight_count, default=1000)
+    parser.add_argument("--seeds", type=campaign.flight_count, default=100)
     parser.add_argument("scenario_files", nargs="*")
     options = parser.parse_intermixed_args()
 
@@ -211,13 +146,13 @@ def main():
     shutil.rmtree(options.output_dir, ignore_errors=True)  # results of another campaign
     options.output_dir.mkdir(parents=True)
     try:
-        flown = fly_campaign(options)
+        flown = campaign.fly_all(options.program, experiments_of(options), options.output_dir)
     except RuntimeError as error:
         print(error, file=sys.stderr)
         return 1
     legend = Legend()
     rows = [row(experiment, runs, legend) for experiment, runs in flown]
-    table = aligned([HEADER, *rows]) + "\n"
+    table = campaign.aligned([HEADER, *rows]) + "\n"
     table += "".join(f"\n{mark} {reason}" for reason, mark in legend.marks.items())
     print(f"\n{table}\n")
     (options.output_dir / "table.txt").write_text(table + "\n")

@@ -51,6 +51,7 @@ RunResult flyExperimentRun(const ExperimentRun& run, std::vector<RunObserver*> o
   if (!run.goals) {
     RunResult result = flight.fly(observers);
     result.faults = watch.summary();
+    result.bounds = flightBounds(mission, run.shortest_paths);
     return result;
   }
   RandomMissions missions(mission, *run.goals, planner, run.seed);

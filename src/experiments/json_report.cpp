@@ -5,6 +5,7 @@
 
 #include "swarm_planner/experiments/collision_partner.hpp"
 #include "swarm_planner/experiments/fault_report.hpp"
+#include "swarm_planner/experiments/flight_ratios.hpp"
 #include "swarm_planner/experiments/json_object.hpp"
 
 namespace swarm_planner {
@@ -38,6 +39,49 @@ std::vector<JsonObject> collisionEvents(const Scenario& scenario, const std::vec
         .add("with", collisionPartner(collision, scenario));
   }
   return events;
+}
+
+std::vector<JsonObject> flights(const Scenario& scenario, const RunResult& run) {
+  std::vector<JsonObject> list;
+  for (std::size_t i = 0; i < run.flown.flights.size(); ++i) {
+    const UavFlight& flight = run.flown.flights[i];
+    const FlightBound bound = i < run.bounds.size() ? run.bounds[i] : FlightBound();
+    list.emplace_back();
+    list.back()
+        .add("uav", scenario.uavs[i].name)
+        .add("arrival_time_s", flight.arrival_time)
+        .add("least_time_s", bound.least_time)
+        .add("path_length_m", flight.path_length)
+        .add("remaining_m", flight.remaining)
+        .add("shortest_path_m", bound.shortest_path)
+        .addFlag("stuck", flight.stuck)
+        .add("lag_m", flight.lag)
+        .add("behind_target_m", flight.behind_target)
+        .addFlag("target_inside_obstacle", flight.target_inside)
+        .add("target_inside_obstacle_ago_s", flight.target_inside_ago);
+  }
+  return list;
+}
+
+/// How the UAVs got on, on top of what the contract asks for.
+void addProgress(const Scenario& scenario, const RunResult& run, JsonObject& object) {
+  const auto count = [&run](bool (*holds)(const UavFlight&)) {
+    const std::vector<UavFlight>& flights = run.flown.flights;
+    return static_cast<unsigned long long>(std::count_if(flights.begin(), flights.end(), holds));
+  };
+  const FlightRatios ratios = flightRatios(run);
+  const auto addRatio = [&object](const std::string& key, const std::optional<MeanMax>& ratio) {
+    ratio ? object.add(key, toObject(*ratio)) : object.add(key, std::optional<double>());
+  };
+  object.addFlag("timed_out", run.flown.timed_out);
+  addRatio("time_ratio", ratios.time);
+  addRatio("path_ratio", ratios.path);
+  object.add("mission_time_ratio", ratios.mission)
+      .addCount("stuck_with_target_inside_obstacle",
+                count([](const UavFlight& flight) { return flight.stuck && flight.target_inside; }))
+      .addCount("strayed_uavs", count([](const UavFlight& flight) { return flight.strayed(); }))
+      .addCount("strayed_uavs_with_reason", count([](const UavFlight& flight) { return flight.strayedWithReason(); }))
+      .add("flights", flights(scenario, run));
 }
 
 JsonObject toObject(const Scenario& scenario, const RunResult& run) {
@@ -79,6 +123,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .add("cost", flown.cost)
       .add("disturbances", disturbances(run.simulation))
       .add("without", run.left_out);
+  addProgress(scenario, run, object);
   addFaults(run, object);
   return object;
 }

@@ -7,6 +7,7 @@
 
 #include "swarm_planner/experiments/collision_partner.hpp"
 #include "swarm_planner/experiments/fault_report.hpp"
+#include "swarm_planner/experiments/flight_ratios.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -23,8 +24,8 @@ std::string fixed(double value, int decimals) {
 
 std::string fixed(const std::optional<double>& value, int decimals) { return value ? fixed(*value, decimals) : "-"; }
 
-const Row kHeader = {"scenario", "seed",  "UAVs",  "cycle ms", "p99",       "max",     "pair m",   "clear m",
-                     "coll.",    "lag m", "stuck", "arrived",  "mission s", "track m", "fallbacks"};
+const Row kHeader = {"scenario", "seed",  "UAVs",    "cycle ms",  "p99",    "max",    "pair m",  "clear m",  "coll.",
+                     "lag m",    "stuck", "arrived", "mission s", "time x", "path x", "track m", "fallbacks"};
 
 std::size_t fallbackCount(const RunResult& run) {
   std::size_t count = 0;
@@ -32,8 +33,11 @@ std::size_t fallbackCount(const RunResult& run) {
   return count;
 }
 
+std::string worst(const std::optional<MeanMax>& ratio) { return ratio ? fixed(ratio->max, 2) : "-"; }
+
 Row toRow(const RunResult& run) {
   const RunSummary& flown = run.flown;
+  const FlightRatios ratios = flightRatios(run);
   return {run.scenario,
           std::to_string(run.seed),
           std::to_string(run.uavs),
@@ -47,6 +51,8 @@ Row toRow(const RunResult& run) {
           std::to_string(flown.stuck_uavs),
           std::to_string(flown.arrived_uavs),
           fixed(flown.mission_time, 2),
+          worst(ratios.time),
+          worst(ratios.path),
           fixed(flown.tracking_error.mean, 4),
           std::to_string(fallbackCount(run))};
 }
@@ -76,6 +82,8 @@ RunResult overall(const std::vector<RunResult>& results) {
     all.flown.arrived_uavs += flown.arrived_uavs;
     all.flown.mission_time += share * flown.mission_time;
     all.flown.tracking_error.mean += share * flown.tracking_error.mean;
+    all.flown.flights.insert(all.flown.flights.end(), flown.flights.begin(), flown.flights.end());
+    all.bounds.insert(all.bounds.end(), run.bounds.begin(), run.bounds.end());
     for (const auto& [reason, count] : run.fallbacks) all.fallbacks[reason] += count;
   }
   all.cycle_ms.median = distributionOf(medians).median;

@@ -61,6 +61,12 @@ void ProgressWatch::observe(double t, const std::vector<Vector3>& positions, con
 
 double ProgressWatch::lag(std::size_t uav) const { return targets_[uav].arc_length - feet_[uav].arc_length; }
 
+Vector3 ProgressWatch::end(std::size_t uav) const { return references_[uav].path.points().back(); }
+
+Vector3 ProgressWatch::targetTangent(std::size_t uav) const {
+  return references_[uav].path.at(targets_[uav].arc_length).tangent;
+}
+
 bool ProgressWatch::stuck(std::size_t uav) const {
   const double most_lag = end_.all_at_goal ? end_.tolerance : kStuckLag;
   if (lag(uav) <= most_lag || arrived(uav)) return false;
@@ -99,20 +105,15 @@ void ProgressWatch::remember() {
   while (past_.size() > 1 && past_[1].time <= time_ - kStuckTime + kTimeRounding) past_.pop_front();
 }
 
-bool ProgressWatch::atEnd(std::size_t uav) const {
-  const ReferencePath& path = references_[uav].path;
-  return (positions_[uav] - path.at(path.length()).position).norm() <= end_.tolerance;
-}
+bool ProgressWatch::atEnd(std::size_t uav) const { return (positions_[uav] - end(uav)).norm() <= end_.tolerance; }
 
 bool ProgressWatch::parked(std::size_t uav) const {
-  const ReferencePath& path = references_[uav].path;
-  const Vector3 end = path.at(path.length()).position;
-  const Vector3 off = positions_[uav] - end;
+  const Vector3 off = positions_[uav] - end(uav);
   if (velocities_[uav].norm() > kParkedSpeed) return false;
   if (pairGauge(off, pair_distance_ + parking_margin_, pair_distance_vertical_ + parking_margin_) > 1.0) return false;
   for (std::size_t other = 0; other < positions_.size(); ++other) {
     const bool occupies = other != uav && atEnd(other) &&
-                          pairGauge(positions_[other] - end, pair_distance_, pair_distance_vertical_) < 1.0;
+                          pairGauge(positions_[other] - end(uav), pair_distance_, pair_distance_vertical_) < 1.0;
     if (occupies) return true;
   }
   return false;

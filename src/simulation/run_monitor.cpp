@@ -21,6 +21,7 @@ RunMonitor::RunMonitor(const Mission& mission)
       pairs_(mission.parameters.limits.pair_distance, mission.parameters.limits.pair_distance_vertical),
       obstacles_(mission.parameters.limits.uav_radius),
       progress_(mission),
+      flights_(mission.scenario.uavs.size()),
       cost_(mission.parameters.cost) {}
 
 void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std::vector<Superellipsoid>& obstacles) {
@@ -44,6 +45,7 @@ void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std
     collisions_.push_back({t, contact.first, true, contact.second});
   }
   progress_.observe(t, positions_, velocities_);
+  flights_.observe(t, positions_, obstacles, progress_);
   watchWorkspace();
   integrateCost(uavs, obstacles);
   if (!ended_) ended_ = endConditionHolds();
@@ -92,11 +94,12 @@ RunSummary RunMonitor::summary() const {
   summary.tracking_error = {tracking_error_sum_ / static_cast<double>(samples_ * count), tracking_error_max_};
   summary.final_lag.max = progress_.lag(0);
   for (std::size_t i = 0; i < count; ++i) {
-    const double lag = progress_.lag(i);
-    summary.final_lag.mean += lag / static_cast<double>(count);
-    summary.final_lag.max = std::max(summary.final_lag.max, lag);
-    summary.stuck_uavs += progress_.stuck(i) ? 1 : 0;
-    summary.arrived_uavs += progress_.arrived(i) ? 1 : 0;
+    const UavFlight flight = flights_.flight(i, progress_);
+    summary.final_lag.mean += flight.lag / static_cast<double>(count);
+    summary.final_lag.max = std::max(summary.final_lag.max, flight.lag);
+    summary.stuck_uavs += flight.stuck ? 1 : 0;
+    summary.arrived_uavs += flight.arrived ? 1 : 0;
+    summary.flights.push_back(flight);
   }
   return summary;
 }

@@ -3,6 +3,8 @@
 // If these fail, a mistyped command line flies something else than was meant, for hours.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "swarm_planner/experiments/experiment_options.hpp"
 
 namespace swarm_planner {
@@ -71,6 +73,29 @@ TEST(ExperimentOptions, FliesSixUavsAmongEightMovingObstacles) {
   EXPECT_EQ(more.uavs, std::vector<int>{3});
   EXPECT_EQ(more.obstacles, 20);
   EXPECT_EQ(more.seeds.size(), 2u);
+}
+
+TEST(ExperimentOptions, KnowsTheTightPlacesAndTheirUavs) {
+  const std::map<std::string, std::pair<ExperimentCommand, int>> expected = {
+      {"forest", {ExperimentCommand::kForest, 10}}, {"small_forest", {ExperimentCommand::kSmallForest, 20}},
+      {"gap", {ExperimentCommand::kGap, 8}},        {"box_head_on", {ExperimentCommand::kBoxHeadOn, 4}},
+      {"u_trap", {ExperimentCommand::kUTrap, 3}},   {"same_goal", {ExperimentCommand::kSameGoal, 6}},
+      {"dens", {ExperimentCommand::kDens, 16}},     {"swapj", {ExperimentCommand::kSwapj, 16}}};
+  for (const auto& [name, what] : expected) {
+    const ExperimentOptions options = parseExperimentOptions({name});
+    EXPECT_EQ(options.command, what.first) << name;
+    EXPECT_EQ(options.uavs, std::vector<int>{what.second}) << name;
+    EXPECT_EQ(options.seeds, std::vector<std::uint64_t>{0}) << name;
+    EXPECT_FALSE(options.shortest_paths);
+    EXPECT_EQ(parseExperimentOptions({name, "--uavs", "3"}).uavs, std::vector<int>{3}) << name;
+  }
+  const ExperimentOptions options =
+      parseExperimentOptions({"gap", "--perturbation", "0", "--shortest-paths", "--seeds", "1:3"});
+  EXPECT_EQ(options.perturbation, 0.0);
+  EXPECT_TRUE(options.shortest_paths);
+  EXPECT_EQ(parseExperimentOptions({"forest", "--gap", "1.5"}).gap, 1.5);
+  EXPECT_FALSE(parseExperimentOptions({"forest"}).gap);
+  EXPECT_FALSE(parseExperimentOptions({"circle_swap"}).radius);
 }
 
 TEST(ExperimentOptions, RehearsesAnHourWithSixUavs) {
@@ -145,6 +170,13 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"monte_carlo", "stray"}, "unexpected argument \"stray\""},
       {{"scaling", "--uavs"}, "--uavs: a value is missing"},
       {{"scaling", "--uavs", "6", "0"}, "--uavs: expected a whole number from 1"},
+      {{"gap", "--uavs", "6", "7"}, "one number"},
+      {{"gap", "--gap", "1"}, "does not go with this command"},
+      {{"forest", "--gap", "-1"}, "--gap: expected a number >= 0"},
+      {{"forest", "--perturbation", "0.1"}, "does not go with this command"},
+      {{"u_trap", "--perturbation", "-0.1"}, "--perturbation: expected a number >= 0"},
+      {{"u_trap", "--perturbation", "inf"}, "--perturbation: expected a number >= 0"},
+      {{"dens", "--radius", "3"}, "does not go with this command"},
       {{"circle_swap", "--radius", "0"}, "--radius: expected a number > 0"},
   };
   for (const Mistake& mistake : mistakes) {

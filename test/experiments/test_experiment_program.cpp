@@ -293,6 +293,43 @@ TEST_F(ExperimentProgramTest, MovingObstaclesFlyAndWhatWasLeftOutIsTold) {
   EXPECT_EQ(ids, (std::set<std::string>{"1", "2", "3"}));
 }
 
+TEST_F(ExperimentProgramTest, FlightsAreMeasuredAgainstShortestPathsIfAsked) {
+  const std::string json_file = directory_.file("result.json");
+  ASSERT_EQ(run({"dens", "--uavs", "6", "--seed", "1", "--json", json_file, "--shortest-paths"}), kExperimentDone)
+      << err_.str();
+  const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+  EXPECT_EQ(json["scenario"].as<std::string>(), "dens_6_1");
+  ASSERT_EQ(json["flights"].size(), 6u);
+  for (const YAML::Node& flight : json["flights"]) {
+    EXPECT_GT(flight["least_time_s"].as<double>(), 0.0);
+    EXPECT_GE((flight["path_length_m"].as<double>() + flight["remaining_m"].as<double>()) /
+                  flight["shortest_path_m"].as<double>(),
+              0.999);
+    if (flight["arrival_time_s"].IsNull()) continue;
+    EXPECT_LE(flight["arrival_time_s"].as<double>(), json["mission_time_s"].as<double>());
+  }
+  ASSERT_EQ(run({"dens", "--uavs", "6", "--seed", "1", "--json", json_file}), kExperimentDone);
+  EXPECT_TRUE(YAML::Load(contentOf(json_file))[0]["flights"][0]["shortest_path_m"].IsNull());
+}
+
+TEST_F(ExperimentProgramTest, EveryTightPlaceFlies) {
+  const std::string json_file = directory_.file("result.json");
+  for (const char* command : {"forest", "small_forest", "gap", "box_head_on", "u_trap", "same_goal", "swapj"}) {
+    ASSERT_EQ(run({command, "--uavs", "1", "--seed", "1", "--json", json_file}), kExperimentDone) << err_.str();
+    const YAML::Node json = YAML::Load(contentOf(json_file))[0];
+    EXPECT_EQ(json["uavs"].as<int>(), 1) << command;
+    EXPECT_EQ(json["collisions"].as<int>(), 0) << command;
+    EXPECT_EQ(json["scenario"].as<std::string>().rfind(command, 0), 0u) << command;
+  }
+}
+
+TEST_F(ExperimentProgramTest, ALargeCircleHasRoomForAll) {
+  ASSERT_EQ(run({"circle_swap", "--uavs", "64", "--without", "avoidance", "--seed", "1"}), kExperimentDone)
+      << err_.str();
+  EXPECT_EQ(run({"circle_swap", "--uavs", "64", "--radius", "10"}), kExperimentFailed);
+  EXPECT_NE(err_.str().find("apart"), std::string::npos) << err_.str();
+}
+
 TEST_F(ExperimentProgramTest, GeneratedScenariosFly) {
   const std::string json_file = directory_.file("result.json");
   ASSERT_EQ(run({"circle_swap", "--uavs", "2", "--radius", "10", "--seeds", "0:1", "--json", json_file}),

@@ -84,7 +84,15 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "deadline_misses",
                                       "cost",
                                       "disturbances",
-                                      "without"};
+                                      "without",
+                                      "timed_out",
+                                      "time_ratio",
+                                      "path_ratio",
+                                      "mission_time_ratio",
+                                      "stuck_with_target_inside_obstacle",
+                                      "strayed_uavs",
+                                      "strayed_uavs_with_reason",
+                                      "flights"};
   const std::set<std::string> distribution = {"mean", "median", "p99", "max"};
   const std::set<std::string> mean_max = {"mean", "max"};
   for (const YAML::Node& run : json) {
@@ -127,6 +135,59 @@ TEST(JsonReport, ListsTheCollisionsByKind) {
   EXPECT_EQ(events[2]["time_s"].as<double>(), 3.25);
   EXPECT_EQ(events[2]["uav"].as<std::string>(), "anna");
   EXPECT_EQ(events[2]["with"].as<std::string>(), "obstacle 42");
+}
+
+/// Anna arrived, a tenth later than she could and by a path a twentieth longer; Bert waits in vain.
+RunResult someFlights() {
+  RunResult run;
+  run.flown.mission_time = 60.0;
+  UavFlight anna, bert;
+  anna.arrived = true;
+  anna.arrival_time = 11.0;
+  anna.path_length = 20.8;
+  anna.remaining = 0.2;
+  bert.stuck = true;
+  bert.lag = 33.0;
+  bert.behind_target = 33.0;
+  bert.target_inside = true;
+  bert.target_inside_ago = 0.0;
+  run.flown.flights = {anna, bert};
+  run.bounds = {{10.0, 20.0}, {12.0, std::nullopt}};
+  return run;
+}
+
+TEST(JsonReport, TellsOfEveryFlightAndWhatItIsMeasuredAgainst) {
+  const YAML::Node run = YAML::Load(toJson({someRun()}, {someFlights()}))[0];
+  EXPECT_NEAR(run["time_ratio"]["max"].as<double>(), 1.1, 1e-9);
+  EXPECT_NEAR(run["path_ratio"]["max"].as<double>(), 1.05, 1e-9);
+  EXPECT_TRUE(run["mission_time_ratio"].IsNull()) << "not all have arrived";
+  EXPECT_EQ(run["stuck_with_target_inside_obstacle"].as<int>(), 1);
+  EXPECT_EQ(run["strayed_uavs"].as<int>(), 0);
+  EXPECT_EQ(run["strayed_uavs_with_reason"].as<int>(), 1);
+  ASSERT_EQ(run["flights"].size(), 2u);
+  const YAML::Node anna = run["flights"][0], bert = run["flights"][1];
+  EXPECT_EQ(keysOf(anna), (std::set<std::string>{"uav", "arrival_time_s", "least_time_s", "path_length_m",
+                                                 "remaining_m", "shortest_path_m", "stuck", "lag_m", "behind_target_m",
+                                                 "target_inside_obstacle", "target_inside_obstacle_ago_s"}));
+  EXPECT_EQ(anna["uav"].as<std::string>(), "anna");
+  EXPECT_EQ(anna["arrival_time_s"].as<double>(), 11.0);
+  EXPECT_EQ(anna["shortest_path_m"].as<double>(), 20.0);
+  EXPECT_TRUE(anna["target_inside_obstacle_ago_s"].IsNull());
+  EXPECT_FALSE(anna["stuck"].as<bool>());
+  EXPECT_TRUE(bert["arrival_time_s"].IsNull());
+  EXPECT_TRUE(bert["shortest_path_m"].IsNull());
+  EXPECT_TRUE(bert["stuck"].as<bool>());
+  EXPECT_TRUE(bert["target_inside_obstacle"].as<bool>());
+}
+
+TEST(JsonReport, RatiosAreNullWhereNobodyArrived) {
+  const YAML::Node run = YAML::Load(toJson({someRun()}, {someResult()}))[0];
+  EXPECT_TRUE(run["time_ratio"].IsNull());
+  EXPECT_TRUE(run["path_ratio"].IsNull());
+  RunResult result = someFlights();
+  result.flown.flights[1] = result.flown.flights[0];
+  result.flown.mission_time = 18.0;
+  EXPECT_NEAR(YAML::Load(toJson({someRun()}, {result}))[0]["mission_time_ratio"].as<double>(), 1.5, 1e-9);
 }
 
 TEST(Reports, TellWhatWasLeftOut) {

@@ -17,14 +17,32 @@ class OptionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles, kRehearse };
+enum class ExperimentCommand {
+  kHelp,
+  kFly,
+  kMonteCarlo,
+  kScaling,
+  kCircleSwap,
+  kForest,
+  kSmallForest,
+  kGap,
+  kBoxHeadOn,
+  kUTrap,
+  kSameGoal,
+  kDens,
+  kSwapj,
+  kMovingObstacles,
+  kRehearse
+};
 
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
   ExperimentCommand command = ExperimentCommand::kHelp;
   std::vector<std::string> scenario_files;  ///< fly
   std::vector<int> uavs;                    ///< the others; scaling: several
-  double radius = 10.0;                     ///< circle_swap [m]
+  std::optional<double> radius;             ///< circle_swap [m]
+  std::optional<double> perturbation;       ///< circle_swap, gap, box_head_on, u_trap, same_goal [m]
+  std::optional<double> gap;                ///< forest [m]
   int obstacles = 8;                        ///< moving_obstacles
   double hours = 1.0;                       ///< rehearse: simulated time
 
@@ -33,7 +51,8 @@ struct ExperimentOptions {
   std::vector<std::uint64_t> seeds;
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
-  std::optional<int> threads;  ///< of the planner
+  bool shortest_paths = false;  ///< flown paths are measured against them
+  std::optional<int> threads;   ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;
   std::optional<std::string> parameter_file;

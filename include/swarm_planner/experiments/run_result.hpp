@@ -9,6 +9,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/experiments/fault_summary.hpp"
+#include "swarm_planner/experiments/flight_bounds.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
 
@@ -28,6 +29,7 @@ struct RunResult {
   MeanMax qp_iterations;                         ///< per UAV and cycle, all QPs together
   long long kkt_nonzeros = 0;                    ///< see kkt_nonzeros.hpp
   RunSummary flown;                              ///< what the simulated vehicles did
+  std::vector<FlightBound> bounds;               ///< what each UAV's flight is measured against
   std::size_t rejected_plans = 0;                ///< plans that the check refused
   std::map<std::string, std::size_t> refusals;   ///< the check's reason in words -> plans
   std::map<std::string, std::size_t> fallbacks;  ///< reason in words -> UAVs and cycles

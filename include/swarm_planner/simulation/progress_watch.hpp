@@ -32,6 +32,11 @@ class ProgressWatch {
   /// The target at the last instant.
   const TargetState& target(std::size_t uav) const { return targets_[uav]; }
 
+  /// Where its reference ends [m].
+  Vector3 end(std::size_t uav) const;
+  /// Direction of the reference where the target is.
+  Vector3 targetTangent(std::size_t uav) const;
+
   /// Lags more than 20 m (with all_at_goal: more than the tolerance), has not arrived, and in the last 20 s (or since
   /// the start, if that is shorter) advanced less than 1 m along the reference and moved less than 5 m net.
   bool stuck(std::size_t uav) const;

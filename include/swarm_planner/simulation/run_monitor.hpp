@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swarm_planner/simulation/closed_loop_cost.hpp"
+#include "swarm_planner/simulation/flight_watch.hpp"
 #include "swarm_planner/simulation/obstacle_watch.hpp"
 #include "swarm_planner/simulation/pair_watch.hpp"
 #include "swarm_planner/simulation/progress_watch.hpp"
@@ -44,12 +45,13 @@ struct RunSummary {
   MeanMax final_lag;                             ///< over the UAVs, see ProgressWatch [m]
   int stuck_uavs = 0;
   int arrived_uavs = 0;
-  double mission_time = 0.0;     ///< of the last sample [s]
-  double path_length = 0.0;      ///< flown by all UAVs together [m]
-  MeanMax tracking_error;        ///< over UAVs and samples [m]
-  int workspace_violations = 0;  ///< episodes of a UAV outside the workspace
-  double cost = 0.0;             ///< (15): the integral of (16) along the flown motion, over all UAVs
-  bool timed_out = false;        ///< all_at_goal was not reached
+  double mission_time = 0.0;       ///< of the last sample [s]
+  double path_length = 0.0;        ///< flown by all UAVs together [m]
+  MeanMax tracking_error;          ///< over UAVs and samples [m]
+  int workspace_violations = 0;    ///< episodes of a UAV outside the workspace
+  double cost = 0.0;               ///< (15): the integral of (16) along the flown motion, over all UAVs
+  bool timed_out = false;          ///< all_at_goal was not reached
+  std::vector<UavFlight> flights;  ///< of each UAV
 };
 
 /// Measures a run as INTERFACES "Experiment program" defines it. Feed it every 10 ms or finer.
@@ -92,6 +94,7 @@ class RunMonitor {
   PairWatch pairs_;
   ObstacleWatch obstacles_;
   ProgressWatch progress_;
+  FlightWatch flights_;
   ClosedLoopCost cost_;
 };
 
