@@ -12,6 +12,7 @@
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
+#include "swarm_planner/swarm/guide_desk.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -42,6 +43,7 @@ class SwarmPlanner::Impl {
         surroundings(parameters, uavs.size(), maxTracks(mission)),
         takeover(homesOf(mission.scenario)),
         director(mission, parameters),
+        guides(parameters, mission.scenario.workspace, uavs.size(), maxTracks(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -109,9 +111,15 @@ class SwarmPlanner::Impl {
     report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
     observeBeginners(snapshot);
     if (!planning) start(epoch);
-    if (planning) planAll(snapshot, epoch, stopwatch, budget);
+    if (planning) {
+      guides.takeAnswers(uavs);
+      planAll(snapshot, epoch, stopwatch, budget);
+      guides.ask(epoch, tracks.tracks(), foreign_bodies, uavs);
+    }
     report.cycle_time = stopwatch.elapsed();
   }
+
+  bool searchGuides() { return guides.search(); }
 
   const Parameters parameters;
   std::vector<UavRecord> uavs;
@@ -320,6 +328,7 @@ class SwarmPlanner::Impl {
   Takeover takeover;
   bool planning = false;  ///< the first plans have been made
   FlightDirector director;
+  GuideDesk guides;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
@@ -340,6 +349,8 @@ const CycleReport& SwarmPlanner::plan(const Snapshot& snapshot, double epoch, do
   impl_->plan(snapshot, epoch, budget);
   return impl_->report;
 }
+
+bool SwarmPlanner::searchGuides() { return impl_->searchGuides(); }
 
 const CycleReport& SwarmPlanner::report() const { return impl_->report; }
 const CommittedMotion& SwarmPlanner::committed(std::size_t uav) const { return impl_->uavs[uav].motions.newest(); }

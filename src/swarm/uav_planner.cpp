@@ -252,7 +252,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   report.pair_distance = clearance.pair;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();
-  report.lag = problem_.targets[0].arc_length - problem_.progress;
+  report.lag = lag_;
   const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
@@ -290,6 +290,9 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   for (std::size_t k = 0; k <= kHorizon; ++k) {
     problem_.targets[k] = target.at(epoch + static_cast<double>(k) * problem_.dt);
   }
+  lag_ = problem_.targets[0].arc_length - progress;
+  record.guide.setFollowed(target);
+  if (record.guide.active()) record.guide.pose(target, progress, problem_);
   surroundings.collect(uav, problem_);
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -36,6 +37,21 @@ class ReferencePath {
   /// the foot from jumping where the path crosses itself. Of points equally near, the first.
   PathPoint nearest(const Vector3& position, double near, double window = 5.0) const;
   const std::vector<Vector3>& points() const { return points_; }
+
+  /// Calls visit(point, arc length) for the corners after `arc_length` [m] and the end, in order, until it returns
+  /// false.
+  template <class Visitor>
+  void forEachPointAfter(double arc_length, const Visitor& visit) const {
+    const auto first = std::upper_bound(arc_lengths_.begin(), arc_lengths_.end(), arc_length);
+    for (auto i = static_cast<std::size_t>(first - arc_lengths_.begin()); i < points_.size(); ++i) {
+      if (!visit(points_[i], arc_lengths_[i])) return;
+    }
+  }
+
+  /// Room for `points` points: assign() takes no heap up to so many.
+  void reserve(std::size_t points);
+  /// Becomes the polyline through `count` >= 1 points.
+  void assign(const Vector3* points, std::size_t count);
 
  private:
   /// Index of the segment that holds `arc_length` in [0, length()]; needs two points.

@@ -34,6 +34,11 @@ class SwarmPlanner {
   /// cycle.
   const CycleReport& plan(const Snapshot& snapshot, double epoch,
                           double budget = std::numeric_limits<double>::infinity());
+  /// Searches ways round what blocks references, as the last cycle left it to be done; without it UAVs fly without
+  /// guides. To be called after each plan(), on any thread: a cycle meanwhile neither waits nor is disturbed, and one
+  /// after it uses what was found. Calls one at a time. Called between cycles it makes runs that can be repeated. False
+  /// if there was nothing to do.
+  bool searchGuides();
   const CycleReport& report() const;
 
   /// What a UAV is to fly, its stop included; meaningful where report().uavs[uav].planned.

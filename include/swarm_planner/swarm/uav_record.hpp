@@ -8,6 +8,8 @@
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 #include "swarm_planner/swarm/flight_task.hpp"
+#include "swarm_planner/swarm/followed_target.hpp"
+#include "swarm_planner/swarm/guided_flight.hpp"
 #include "swarm_planner/swarm/motion_doubt.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
 #include "swarm_planner/swarm/odometry_monitor.hpp"
@@ -31,6 +33,7 @@ struct UavRecord {
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
   FlightTask task;    ///< what it is to do, as commands left it
+  GuidedFlight guide;  ///< round what blocks what it follows
   ActiveRows active;  ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
@@ -66,5 +69,11 @@ struct UavRecord {
   void startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
                  const FlightBounds& bounds);
 };
+
+/// The mission's reference, or what the UAV's task has it follow instead.
+inline FollowedTarget followedBy(const UavRecord& record) {
+  if (record.task.mode == FlightMode::kFlying) return {record.reference, record.progress};
+  return {record.task.target, record.task.target_progress};
+}
 
 }  // namespace swarm_planner

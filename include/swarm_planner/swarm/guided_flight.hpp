@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "swarm_planner/guide/guide_planner.hpp"
+#include "swarm_planner/problem/uav_problem.hpp"
+
+namespace swarm_planner {
+
+/// The guide that a UAV flies along in place of what it follows, if there is one in force. Takes no heap once made.
+class GuidedFlight {
+ public:
+  GuidedFlight();
+
+  /// The UAV follows `target` in this cycle: a guide for anything else is dropped.
+  void setFollowed(const MovingTarget& target);
+  /// Counts what was followed so far: of requests.
+  std::uint32_t version() const { return version_; }
+
+  /// Takes an answer to a request for what is followed now; others are not looked at.
+  void take(const GuideAnswer& answer, const MovingTarget& target);
+  void drop() { active_ = false; }
+
+  bool active() const { return active_; }
+  /// It has not been flown along yet.
+  bool isNew() const { return is_new_; }
+  /// The reference is blocked, and no way round it is known.
+  bool hasNoWay() const { return has_no_way_; }
+  const ReferencePath& path() const { return path_; }
+
+  /// Makes the problem that of following the guide: its path, and targets that move along it, never farther ahead of
+  /// the UAV than it can fly. `progress`: of the UAV on what it follows [m]; kept at where the guide joins that.
+  void pose(const MovingTarget& target, double& progress, UavProblem& problem);
+
+ private:
+  /// Where the target is on the path when it is at `arc_length` of what is followed [m].
+  double wayOf(double arc_length) const;
+
+  bool active_ = false;
+  bool is_new_ = false;
+  bool has_no_way_ = false;
+  std::uint32_t version_ = 0;
+  std::uint32_t number_ = 0;
+  const MovingTarget* followed_ = nullptr;
+  std::size_t points_ = 0;  ///< of what is followed, with its ends [m]
+  Vector3 first_ = Vector3::Zero();
+  Vector3 last_ = Vector3::Zero();
+
+  ReferencePath path_;  ///< the guide, then what is followed on from there
+  double progress_ = 0.0;
+  double to_rejoin_ = 0.0;  ///< length of the guide [m]
+  double branch_ = 0.0;     ///< arc length of what is followed where the guide leaves it [m]
+  double rejoin_ = 0.0;     ///< and joins it again [m]
+  bool rejoins_ = false;
+};
+
+}  // namespace swarm_planner
