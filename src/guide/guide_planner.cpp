@@ -15,22 +15,10 @@ constexpr double kCoarsest = 10.0;      // at least
 constexpr double kCellShare = 0.5;      // of the half width of the narrowest body
 constexpr double kLongestTime = 60.0;   // that bodies are predicted for [s]
 constexpr int kRings = 32;              // around an end that is not clear
-constexpr double kReached = 1e-3;       // a goal so near is reached [m]
 constexpr double kBeyond = 0.5;         // of the blocked stretch, by which a goal lies beyond it
+constexpr double kMargin = 2.0;         // of the region about start and goal, in their distance and what blocks
+constexpr int kMostAttempts = 5;
 constexpr double kMissing = 1e6;        // urgency of a UAV without a guide that is clear
-
-/// One of the searches for a guide: the first that finds a way counts.
-struct Attempt {
-  bool far;        ///< round all that is within reach, not only round the next
-  bool comfort;    ///< with more distance than demanded
-  double cell;     ///< over the usual one
-  double margin;   ///< of the region searched, over the usual one
-};
-constexpr std::array<Attempt, 5> kAttempts{{{true, true, 1.0, 1.0},
-                                            {false, true, 1.0, 1.0},
-                                            {false, false, 0.5, 1.0},
-                                            {false, false, 1.0, 3.0},
-                                            {false, false, 0.25, 0.5}}};
 
 Box grown(Box box, double by) {
   box.min -= Vector3::Constant(by);
@@ -209,39 +197,52 @@ std::optional<GuidePlanner::Goal> GuidePlanner::goalOf(const GuideRequest& reque
 
 void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, const Want& want,
                           GuideAnswer& answer) {
-  const Blockage& blockage = blockages_[want.uav];
   ++searches_;
-  SearchQuery query;
-  query.start = request.start;
-  query.pace = {0.0, request.speed};
-  query.budget = kSearchBudget;
-  for (const Attempt& attempt : kAttempts) {
-    const bool is_same_goal = blockage.far_end == blockage.near_end;
-    if (attempt.far && is_same_goal) continue;
-    const Vector3 towards = request.path.at(attempt.far ? blockage.far_end : blockage.near_end);
-    const double distance = std::max((towards - request.start).norm(), blockage.smallest);
-    query.cell = attempt.cell *
-                 std::clamp(kCellShare * blockage.smallest, distance / kFinest, distance / kCoarsest);
-    query.region = Box();
-    query.region.include(request.start);
-    query.region.include(towards);
-    query.region = grown(query.region, attempt.margin * (distance + 2.0 * blockage.largest));
-    gather(scene, request, want.uav, query.region, std::min(kLongestTime, 4.0 * distance / request.speed));
-    space_.setComfort(attempt.comfort ? settings_.comfort : 0.0);
-    space_.relieve(request.start);
-    gatherTraffic(scene, want.uav, query.region);
-    const std::optional<Goal> goal = goalOf(request, blockage, attempt.far, query.cell);
-    if (!goal) continue;
-    query.goal = goal->p;
-    const SearchOutcome outcome = lattice_.search(query, space_, traffic_, found_);
-    expansions_ += lattice_.expansions();
-    if (outcome != SearchOutcome::kFound) continue;
-    tighten(found_, query.pace, space_, traffic_);
-    take(request, want, *goal, answer);
-    return;
+  const Blockage& blockage = blockages_[want.uav];
+  // With more distance than demanded, round all that is within reach, if there is such a way.
+  Attempt attempt;
+  attempt.far = blockage.far_end != blockage.near_end;
+  for (int i = 0; i < kMostAttempts; ++i) {
+    const std::optional<Goal> goal = prepare(scene, request, want.uav, attempt);
+    SearchOutcome outcome = SearchOutcome::kNoWay;
+    if (goal) outcome = lattice_.search(query_, space_, traffic_, found_);
+    if (goal) expansions_ += lattice_.expansions();
+    if (outcome == SearchOutcome::kFound) {
+      tighten(found_, query_.pace, space_, traffic_);
+      take(request, want, *goal, answer);
+      return;
+    }
+    if (!attempt.far) {
+      // A lattice that is too fine for what blocks does not come round it; one that is too coarse sees no gap.
+      attempt.cell *= outcome == SearchOutcome::kBudgetSpent ? 2.0 : 0.5;
+      attempt.comfort = attempt.comfort && outcome == SearchOutcome::kBudgetSpent;
+    }
+    attempt.far = false;
   }
   ages_[want.uav] = 0;
   if (!want.is_renewal) answer.state = GuideState::kNoWay;
+}
+
+std::optional<GuidePlanner::Goal> GuidePlanner::prepare(const GuideScene& scene, const GuideRequest& request,
+                                                        std::uint32_t uav, const Attempt& attempt) {
+  const Blockage& blockage = blockages_[uav];
+  const Vector3 towards = request.path.at(attempt.far ? blockage.far_end : blockage.near_end);
+  const double distance = std::max((towards - request.start).norm(), blockage.smallest);
+  query_.start = request.start;
+  query_.pace = {0.0, request.speed};
+  query_.budget = kSearchBudget;
+  query_.cell = attempt.cell * std::clamp(kCellShare * blockage.smallest, distance / kFinest, distance / kCoarsest);
+  query_.region = Box();
+  query_.region.include(request.start);
+  query_.region.include(towards);
+  query_.region = grown(query_.region, kMargin * (distance + blockage.largest));
+  gather(scene, request, uav, query_.region, std::min(kLongestTime, 2.0 * kMargin * distance / request.speed));
+  space_.setComfort(attempt.comfort ? settings_.comfort : 0.0);
+  space_.relieve(request.start);
+  gatherTraffic(scene, uav, query_.region);
+  const std::optional<Goal> goal = goalOf(request, blockage, attempt.far, query_.cell);
+  if (goal) query_.goal = goal->p;
+  return goal;
 }
 
 void GuidePlanner::take(const GuideRequest& request, const Want& want, const Goal& goal, GuideAnswer& answer) {

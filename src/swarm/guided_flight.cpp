@@ -3,12 +3,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace swarm_planner {
 namespace {
 
 constexpr std::size_t kMostPoints = GuidePath::kMostPoints + FollowedPath::kMostPoints;
+constexpr double kFootWindow = 5.0;     // about the last foot [m]
+constexpr double kBrakingStages = 5.0;  // from max_speed to rest
+constexpr double kSharpest = 1e-4;
+constexpr double kHeldUp = 0.5;  // of the way asked for, that a plan lacks at its end if it does not get on
+constexpr int kRetries = 4;      // cycles between two fresh starts of a UAV that does not get on
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -57,7 +63,8 @@ void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {
   rejoins_ = answer.rejoins;
   number_ = answer.number;
   progress_ = 0.0;
-  active_ = is_new_ = true;
+  active_ = is_new_ = needs_fresh_start_ = true;
+  held_up_ = 0;
 }
 
 double GuidedFlight::wayOf(double arc_length) const {
@@ -67,29 +74,72 @@ double GuidedFlight::wayOf(double arc_length) const {
   return std::max(share, 0.0) * to_rejoin_;
 }
 
+void GuidedFlight::limitCorners(const UavProblem& problem) {
+  const LimitParameters& limits = problem.parameters->limits;
+  const double cut = limits.uav_radius + limits.tracking_margin;
+  braking_ = problem.bounds.max_speed / (kBrakingStages * problem.dt);
+  corner_count_ = 0;
+  const std::vector<Vector3>& points = path_.points();
+  double way = 0.0;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i) {
+    const Vector3 before = points[i] - points[i - 1];
+    const Vector3 after = points[i + 1] - points[i];
+    way += before.norm();
+    // An arc that leaves the corner by `cut` has the radius cut / (1 / cos(turn / 2) - 1).
+    const double cosine = before.normalized().dot(after.normalized());
+    const double half = std::sqrt(std::max(0.5 * (1.0 + cosine), kSharpest));
+    const double radius = cut * half / std::max(1.0 - half, kSharpest);
+    const double speed = std::sqrt(braking_ * radius);
+    if (speed < problem.bounds.max_speed) corners_[corner_count_++] = {way, speed};
+  }
+}
+
+double GuidedFlight::speedAt(double way, double max_speed) const {
+  double speed = max_speed;
+  for (std::size_t i = 0; i < corner_count_; ++i) {
+    const Corner& corner = corners_[i];
+    if (corner.way < way) continue;
+    speed = std::min(speed, std::sqrt(corner.speed * corner.speed + 2.0 * braking_ * (corner.way - way)));
+  }
+  return speed;
+}
+
 void GuidedFlight::pose(const MovingTarget& target, double& progress, UavProblem& problem) {
-  const double window = is_new_ ? kInfinity : 5.0;
-  progress_ = path_.nearest(problem.start.p, progress_, window).arc_length;
+  const PathPoint foot = path_.nearest(problem.start.p, progress_, is_new_ ? kInfinity : kFootWindow);
+  if (is_new_) limitCorners(problem);
   is_new_ = false;
+  progress_ = foot.arc_length;
   if (rejoins_ && progress_ > to_rejoin_) progress = rejoin_ + progress_ - to_rejoin_;
   problem.path = &path_;
   problem.progress = progress_;
-  const double speed = problem.bounds.max_speed;
+  const double max_speed = problem.bounds.max_speed;
+  double speed = std::clamp(problem.start.v.dot(foot.tangent), 0.0, max_speed);
   double way = progress_;
   for (std::size_t k = 0; k <= kHorizon; ++k) {
-    const double elapsed = static_cast<double>(k) * problem.dt;
-    const double wanted = wayOf(target.at(problem.epoch + elapsed).arc_length);
+    const double wanted = wayOf(target.at(problem.epoch + static_cast<double>(k) * problem.dt).arc_length);
     const double before = way;
-    way = std::clamp(wanted, progress_, progress_ + speed * elapsed);
+    if (k > 0) {
+      speed = std::min(speed + braking_ * problem.dt, speedAt(way, max_speed));
+      way = std::max(std::min(wanted, way + speed * problem.dt), way);
+    }
     const PathPoint point = path_.at(way);
     TargetState& state = problem.targets[k];
     state.p = point.position;
-    state.arc_length = point.arc_length;
-    state.v.setZero();
-    // Over the stage before: the first stage is where the UAV is anyway.
-    if (k > 0 && point.arc_length > before) state.v = (point.arc_length - before) / problem.dt * point.tangent;
-    way = point.arc_length;
+    state.arc_length = way = point.arc_length;
+    state.v = (way - before) / problem.dt * point.tangent;
   }
+  problem.targets[0].v = problem.targets[1].v;
+}
+
+void GuidedFlight::notePlan(const Vector3& end, const UavProblem& problem) {
+  needs_fresh_start_ = false;
+  if (!active_) return;
+  const double asked = problem.targets[kHorizon].arc_length - progress_;
+  const double lacking = (problem.targets[kHorizon].p - end).norm();
+  const LimitParameters& limits = problem.parameters->limits;
+  const bool gets_on = lacking < std::max(kHeldUp * asked, kHeldUp * limits.pair_distance);
+  held_up_ = gets_on ? 0 : held_up_ + 1;
+  needs_fresh_start_ = held_up_ % kRetries == 1;
 }
 
 }  // namespace swarm_planner

@@ -147,11 +147,13 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   }
   plan_ = shifted_;
   guessActiveRows(epoch, record);
-  const SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  if (!result.solved) plan_ = shifted_;
+  if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
+  record.guide.notePlan(plan_.knots.back().p, problem_);
   report.sqp_iterations += result.iterations;
   report.qp_iterations += result.qp_iterations;
   report.solved = result.solved;
-  if (!result.solved) plan_ = shifted_;
 
   report.max_slack = result.max_violation;
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
@@ -175,6 +177,25 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     return {};
   }
   return verdict;
+}
+
+void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
+  along_ = shifted_;
+  along_active_.count = 0;
+  std::swap(problem_.bodies, no_bodies_);
+  const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
+  std::swap(problem_.bodies, no_bodies_);
+  along_active_.count = 0;
+  SqpResult other = sqp_.solve(problem_, along_, along_active_);
+  const int iterations = result.iterations + alone.iterations + other.iterations;
+  const int qp_iterations = result.qp_iterations + alone.qp_iterations + other.qp_iterations;
+  if (other.solved && (!result.solved || other.merit < result.merit)) {
+    plan_ = along_;
+    active = along_active_;
+    result = other;
+  }
+  result.iterations = iterations;
+  result.qp_iterations = qp_iterations;
 }
 
 void UavPlanner::limitDoubts(double epoch, const CommittedMotion& flown) {

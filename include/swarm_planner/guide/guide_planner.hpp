@@ -86,6 +86,13 @@ class GuidePlanner {
     bool rejoins = false;
   };
 
+  /// How a way is searched.
+  struct Attempt {
+    bool far = false;     ///< round all that is within reach, not only round the next
+    bool comfort = true;  ///< with more distance than demanded
+    double cell = 1.0;    ///< of the lattice, over the usual one
+  };
+
   void sortBodies(const GuideScene& scene);
   /// Fills space_ with what a UAV may meet in `region` until `time` [s].
   void gather(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav, const Box& region, double time);
@@ -96,6 +103,9 @@ class GuidePlanner {
   /// Whether the rest of a guide, and the reference after it within reach, is clear.
   bool isClearStill(const GuideRequest& request, const GuideAnswer& answer);
   void search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer);
+  /// Makes space_, traffic_ and query_ those of an attempt. Where it leads; none if no place is clear.
+  std::optional<Goal> prepare(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav,
+                              const Attempt& attempt);
   /// Where a search that is to go round all that is within reach, or (`far` false) the next of it, leads; none if no
   /// place is clear.
   std::optional<Goal> goalOf(const GuideRequest& request, const Blockage& blockage, bool far, double step) const;
@@ -108,6 +118,7 @@ class GuidePlanner {
   BodySpace space_;
   Traffic traffic_;
   LatticeSearch lattice_;
+  SearchQuery query_;
   GuidePath found_;
   std::vector<std::uint32_t> by_x_;  ///< bodies in the order of the least x of their boxes
   std::vector<Box> boxes_;           ///< of the bodies over the time looked at

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -24,22 +25,31 @@ class GuidedFlight {
   void drop() { active_ = false; }
 
   bool active() const { return active_; }
-  /// It has not been flown along yet.
-  bool isNew() const { return is_new_; }
+  /// A plan shifted from the cycle before does not lead along it: the guide is new, or the last plan did not get on.
+  bool needsFreshStart() const { return active_ && needs_fresh_start_; }
+  /// The plan made for the pose of this cycle ends at `end` [m].
+  void notePlan(const Vector3& end, const UavProblem& problem);
   /// The reference is blocked, and no way round it is known.
   bool hasNoWay() const { return has_no_way_; }
   const ReferencePath& path() const { return path_; }
 
-  /// Makes the problem that of following the guide: its path, and targets that move along it, never farther ahead of
-  /// the UAV than it can fly. `progress`: of the UAV on what it follows [m]; kept at where the guide joins that.
+  /// Makes the problem that of following the guide: its path, and targets that move along it as the UAV can: from its
+  /// foot and its speed on, slower round corners. `progress`: of the UAV on what it follows [m]; kept at where the guide
+  /// joins that.
   void pose(const MovingTarget& target, double& progress, UavProblem& problem);
 
  private:
+  /// Bounds the speeds at the path's corners.
+  void limitCorners(const UavProblem& problem);
+  /// The greatest speed at `way` [m] from which every corner ahead is taken slowly enough [m/s].
+  double speedAt(double way, double max_speed) const;
   /// Where the target is on the path when it is at `arc_length` of what is followed [m].
   double wayOf(double arc_length) const;
 
   bool active_ = false;
   bool is_new_ = false;
+  bool needs_fresh_start_ = false;
+  int held_up_ = 0;  ///< cycles since a fresh start in which the plan did not get on
   bool has_no_way_ = false;
   std::uint32_t version_ = 0;
   std::uint32_t number_ = 0;
@@ -49,6 +59,14 @@ class GuidedFlight {
   Vector3 last_ = Vector3::Zero();
 
   ReferencePath path_;  ///< the guide, then what is followed on from there
+  /// Where it turns, and the greatest speed there.
+  struct Corner {
+    double way = 0.0;    ///< [m]
+    double speed = 0.0;  ///< [m/s]
+  };
+  std::array<Corner, GuidePath::kMostPoints + FollowedPath::kMostPoints> corners_;
+  std::size_t corner_count_ = 0;
+  double braking_ = 1.0;  ///< before corners, and acceleration after them [m/s^2]
   double progress_ = 0.0;
   double to_rejoin_ = 0.0;  ///< length of the guide [m]
   double branch_ = 0.0;     ///< arc length of what is followed where the guide leaves it [m]
