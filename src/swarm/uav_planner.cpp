@@ -313,7 +313,8 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   }
   lag_ = problem_.targets[0].arc_length - progress;
   record.guide.setFollowed(target);
-  if (record.guide.active()) record.guide.pose(target, progress, problem_);
+  problem_.is_guided = record.guide.active();
+  if (problem_.is_guided) record.guide.pose(target, progress, problem_);
   surroundings.collect(uav, problem_);
 }
 
