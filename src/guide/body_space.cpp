@@ -86,8 +86,7 @@ bool BodySpace::mayTouch(const Entry& entry, const TimedPoint& from, const Timed
 
 ConvexPassage BodySpace::passage(const Entry& entry, const TimedPoint& from, const TimedPoint& to) const {
   const Superellipsoid& shape = entry.body->shape;
-  return ConvexPassage(shape, from.p - from.t * shape.velocity(), to.p - to.t * shape.velocity(),
-                       demand(entry, to.t));
+  return ConvexPassage(shape, from.p - from.t * shape.velocity(), to.p - to.t * shape.velocity(), demand(entry, to.t));
 }
 
 bool BodySpace::isClear(const TimedPoint& from, const TimedPoint& to) const {

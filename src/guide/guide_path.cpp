@@ -7,8 +7,8 @@ namespace swarm_planner {
 namespace {
 
 constexpr int kSweeps = 3;
-constexpr int kHalvings = 5;            // of a pull that is not clear
-constexpr double kWorthwhile = 1e-3;    // of the length, for another sweep
+constexpr int kHalvings = 5;          // of a pull that is not clear
+constexpr double kWorthwhile = 1e-3;  // of the length, for another sweep
 
 /// Whether the path from its point `first` on is clear.
 bool isClearFrom(const GuidePath& path, std::size_t first, double way, const Pace& pace, const FreeSpace& space) {

@@ -7,18 +7,18 @@
 namespace swarm_planner {
 namespace {
 
-constexpr std::uint32_t kRenewal = 4;   // rounds until a guide that is clear is compared with a new one
-constexpr std::uint32_t kRetry = 5;     // rounds until a search that found nothing is repeated
-constexpr double kGain = 0.15;          // of the cost, that a new guide saves if it replaces one that is clear
-constexpr double kFinest = 30.0;        // cells on the straight line to the goal at most
-constexpr double kCoarsest = 10.0;      // at least
-constexpr double kCellShare = 0.5;      // of the half width of the narrowest body
-constexpr double kLongestTime = 60.0;   // that bodies are predicted for [s]
-constexpr int kRings = 32;              // around an end that is not clear
-constexpr double kBeyond = 0.5;         // of the blocked stretch, by which a goal lies beyond it
-constexpr double kMargin = 2.0;         // of the region about start and goal, in their distance and what blocks
+constexpr std::uint32_t kRenewal = 4;  // rounds until a guide that is clear is compared with a new one
+constexpr std::uint32_t kRetry = 5;    // rounds until a search that found nothing is repeated
+constexpr double kGain = 0.15;         // of the cost, that a new guide saves if it replaces one that is clear
+constexpr double kFinest = 30.0;       // cells on the straight line to the goal at most
+constexpr double kCoarsest = 10.0;     // at least
+constexpr double kCellShare = 0.5;     // of the half width of the narrowest body
+constexpr double kLongestTime = 60.0;  // that bodies are predicted for [s]
+constexpr int kRings = 32;             // around an end that is not clear
+constexpr double kBeyond = 0.5;        // of the blocked stretch, by which a goal lies beyond it
+constexpr double kMargin = 2.0;        // of the region about start and goal, in their distance and what blocks
 constexpr int kMostAttempts = 5;
-constexpr double kMissing = 1e6;        // urgency of a UAV without a guide that is clear
+constexpr double kMissing = 1e6;  // urgency of a UAV without a guide that is clear
 
 Box grown(Box box, double by) {
   box.min -= Vector3::Constant(by);
@@ -103,8 +103,9 @@ void GuidePlanner::plan(const GuideScene& scene, const std::vector<GuideRequest>
   wants_.clear();
   sortBodies(scene);
   for (std::uint32_t uav = 0; uav < requests.size(); ++uav) assess(scene, requests[uav], uav, answers[uav]);
-  std::sort(wants_.begin(), wants_.end(),
-            [](const Want& a, const Want& b) { return a.urgency != b.urgency ? a.urgency > b.urgency : a.uav < b.uav; });
+  std::sort(wants_.begin(), wants_.end(), [](const Want& a, const Want& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.uav < b.uav;
+  });
   for (const Want& want : wants_) {
     if (expansions_ >= kRoundBudget) {
       ++waits_[want.uav];
@@ -195,8 +196,7 @@ std::optional<GuidePlanner::Goal> GuidePlanner::goalOf(const GuideRequest& reque
   return Goal{path.at(way), way, true};
 }
 
-void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, const Want& want,
-                          GuideAnswer& answer) {
+void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer) {
   ++searches_;
   const Blockage& blockage = blockages_[want.uav];
   // With more distance than demanded, round all that is within reach, if there is such a way.

@@ -9,9 +9,9 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kVertical = 1e-3;       // horizontal part of a direction below which it counts as vertical
-constexpr double kSameCost = 1e-6;       // of a cell: costs that differ by less are the same
-constexpr int kFarthest = 30000;         // cells from the start
+constexpr double kVertical = 1e-3;  // horizontal part of a direction below which it counts as vertical
+constexpr double kSameCost = 1e-6;  // of a cell: costs that differ by less are the same
+constexpr int kFarthest = 30000;    // cells from the start
 
 using Step = std::array<std::int16_t, 3>;
 

@@ -81,6 +81,10 @@ const char* reasonText(Reason reason) {
       return "stopped by command";
     case Reason::kTakingOver:
       return "in flight when the planner started; its last trajectory goes on until all inputs are known";
+    case Reason::kNoWayRound:
+      return "its way is blocked and no way round is found; waits and looks again";
+    case Reason::kEndNotClear:
+      return "the end of its way is not clear; waits as near as is safe";
   }
   return "unknown reason";
 }

@@ -7,14 +7,14 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kQuietTime = 2.0;       // that a UAV rests before others go round it [s]
-constexpr double kQuietShare = 0.25;     // of the pair distance, that a UAV at rest may move
-constexpr double kBit = 2.0;             // distances to keep, beyond the horizon's reach
-constexpr double kCatchUpSpeed = 0.8;    // of max_speed, of a UAV that lags
-constexpr double kLeastSpeed = 0.3;      // of max_speed
-constexpr double kComfort = 0.5;         // of the distance to keep, more
-constexpr double kSlackShare = 0.5;      // of the tracking margin
-constexpr double kPointSpacing = 2.0;    // stages between two points of a flight
+constexpr double kQuietTime = 2.0;     // that a UAV rests before others go round it [s]
+constexpr double kQuietShare = 0.25;   // of the pair distance, that a UAV at rest may move
+constexpr double kBit = 2.0;           // distances to keep, beyond the horizon's reach
+constexpr double kCatchUpSpeed = 0.8;  // of max_speed, of a UAV that lags
+constexpr double kLeastSpeed = 0.3;    // of max_speed
+constexpr double kComfort = 0.5;       // of the distance to keep, more
+constexpr double kSlackShare = 0.5;    // of the tracking margin
+constexpr double kPointSpacing = 2.0;  // stages between two points of a flight
 
 double horizonTime(const Parameters& parameters) { return kHorizon * parameters.time.sampling_time; }
 
@@ -49,19 +49,19 @@ GuideDesk::GuideDesk(const Parameters& parameters, const std::optional<Workspace
 void GuideDesk::takeAnswers(std::vector<UavRecord>& uavs) {
   if (turn_.load(std::memory_order_acquire) != Turn::kAnswered) return;
   for (std::size_t i = 0; i < uavs.size(); ++i) {
-    if (requests_[i].wanted) uavs[i].guide.take(answers_[i], followedBy(uavs[i]).target);
+    if (requests_[i].wanted) uavs[i].guide.take(answers_[i], followedTarget(uavs[i]).target);
   }
-  expansions_ = planner_.expansions();
   turn_.store(Turn::kCycle, std::memory_order_relaxed);
 }
 
 void GuideDesk::ask(double epoch, const std::vector<TrackedObstacle>& tracks, const std::vector<ForeignBody>& foreign,
-                    const std::vector<UavRecord>& uavs) {
+                    std::vector<UavRecord>& uavs) {
   if (turn_.load(std::memory_order_relaxed) != Turn::kCycle) return;
   // What is found is used a cycle later.
   time_zero_ = epoch + parameters_.time.cycle_period;
   scene_.bodies.clear();
-  for (const TrackedObstacle& track : tracks) addObstacle(track.shape, track.stamp, inflationOf(track, parameters_.input));
+  for (const TrackedObstacle& track : tracks)
+    addObstacle(track.shape, track.stamp, inflationOf(track, parameters_.input));
   for (const ForeignBody& body : foreign) addObstacle(body.shape, body.stamp, body.inflation);
   for (std::size_t i = 0; i < uavs.size(); ++i) {
     addUav(i, epoch, uavs[i]);
@@ -114,11 +114,11 @@ void GuideDesk::addUav(std::size_t uav, double epoch, const UavRecord& record) {
   }
 }
 
-void GuideDesk::fillRequest(const UavRecord& record, GuideRequest& request) const {
+void GuideDesk::fillRequest(UavRecord& record, GuideRequest& request) const {
   request.wanted = parameters_.limits.guide && parameters_.limits.avoidance && isGuidable(record.task) &&
                    record.planned && !record.unseen;
   if (!request.wanted) return;
-  const FollowedTarget followed = followedBy(record);
+  const FollowedTarget followed = followedTarget(record);
   const MovingTarget& target = followed.target;
   const double max_speed = parameters_.limits.max_speed;
   request.version = record.guide.version();

@@ -14,6 +14,7 @@ constexpr double kFootWindow = 5.0;     // about the last foot [m]
 constexpr double kBrakingStages = 5.0;  // from max_speed to rest
 constexpr double kSharpest = 1e-4;
 constexpr double kHeldUp = 0.5;  // of the way asked for, that a plan lacks at its end if it does not get on
+constexpr double kAtEnd = 0.5;   // of a guide that ends beside its reference's end [m]
 constexpr int kRetries = 4;      // cycles between two fresh starts of a UAV that does not get on
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -35,6 +36,18 @@ void GuidedFlight::setFollowed(const MovingTarget& target) {
   ++version_;
   active_ = false;
   has_no_way_ = false;
+}
+
+void GuidedFlight::forget() {
+  followed_ = nullptr;
+  active_ = false;
+  has_no_way_ = false;
+}
+
+Reason GuidedFlight::reasonToStand() const {
+  if (has_no_way_) return Reason::kNoWayRound;
+  const bool is_at_end = active_ && !rejoins_ && to_rejoin_ - progress_ < kAtEnd;
+  return is_at_end ? Reason::kEndNotClear : Reason::kNone;
 }
 
 void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {

@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/guide_desk.hpp"
+#include "swarm_planner/swarm/reference_rules.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -362,21 +361,14 @@ TargetState SwarmPlanner::target(std::size_t uav, double t) const {
 
 const MovingTarget& SwarmPlanner::reference(std::size_t uav) const { return impl_->uavs[uav].reference; }
 
+const ReferencePath* SwarmPlanner::guide(std::size_t uav) const {
+  const GuidedFlight& guide = impl_->uavs[uav].guide;
+  return guide.active() ? &guide.path() : nullptr;
+}
+
 void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
   if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
-  if (path.empty()) throw std::invalid_argument("the path has no point");
-  if (path.size() > kMostPathPoints) {
-    throw std::invalid_argument("the path has " + std::to_string(path.size()) + " points, at most " +
-                                std::to_string(kMostPathPoints) + " allowed");
-  }
-  if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return point.allFinite(); })) {
-    throw std::invalid_argument("the path has a point that is not finite");
-  }
-  if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return isWithin(point, kMostCoordinate); })) {
-    throw std::invalid_argument("the path has a point more than 1e7 m from the origin");
-  }
-  if (!(start >= 0.0) || !std::isfinite(start)) throw std::invalid_argument("start must be finite and >= 0");
-  if (!(speed >= 0.0 && speed <= kMostSpeed)) throw std::invalid_argument("speed must be within [0, 1000] m/s");
+  requireReference(path, start, speed);
   impl_->uavs[uav].setReference(path, start, speed);
 }
 

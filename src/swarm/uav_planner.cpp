@@ -19,6 +19,7 @@ constexpr double kBoundSlack = 0.1;      // of a bound, by which a measured star
 constexpr double kReserve = 0.002;       // of the bounds, that the solver stays inside
 constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
 constexpr double kSameShortfall = 1e-3;  // [m s]
+constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -282,6 +283,8 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
     report.reason = Reason::kOffPlan;
     report.deviation = record.off_plan_distance;
   }
+  const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
+  if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
   reportTask(record.task, report);
 }
@@ -297,10 +300,7 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const bool on_mission = record.task.mode == FlightMode::kFlying;
-  const MovingTarget& target = on_mission ? record.reference : record.task.target;
-  bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
-  double& progress = on_mission ? record.progress : record.task.target_progress;
+  const auto [target, on_path, progress] = followedTarget(record);
   progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
   on_path = true;

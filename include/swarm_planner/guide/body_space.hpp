@@ -19,11 +19,11 @@ namespace swarm_planner {
 struct GuideBody {
   static constexpr std::uint32_t kNoUav = std::numeric_limits<std::uint32_t>::max();
 
-  Superellipsoid shape;          ///< at time zero; at constant velocity from then on
-  double distance = 0.0;         ///< to be kept from its surface at time zero [m]
-  double growth_rate = 0.0;      ///< of the distance, because the prediction gets worse [m/s]
-  double growth_limit = 0.0;     ///< [m]
-  std::uint32_t uav = kNoUav;    ///< the one at rest
+  Superellipsoid shape;        ///< at time zero; at constant velocity from then on
+  double distance = 0.0;       ///< to be kept from its surface at time zero [m]
+  double growth_rate = 0.0;    ///< of the distance, because the prediction gets worse [m/s]
+  double growth_limit = 0.0;   ///< [m]
+  std::uint32_t uav = kNoUav;  ///< the one at rest
 
   /// To be kept at time `t` [s].
   double distanceAt(double t) const { return distance + std::min(growth_rate * t, growth_limit); }

@@ -35,10 +35,10 @@ struct Blockage {
   double next = 0.0;      ///< blocked once more; the path's end if it is not
   double far_end = 0.0;   ///< clear again after all that begins within reach
   double far_next = 0.0;
-  bool to_end = false;          ///< blocked to the path's end: there is no near_end
-  bool far_to_end = false;      ///< likewise
-  double smallest = 0.0;        ///< least half width of what blocks, with the distance to keep [m]
-  double largest = 0.0;         ///< greatest half extent of it [m]
+  bool to_end = false;      ///< blocked to the path's end: there is no near_end
+  bool far_to_end = false;  ///< likewise
+  double smallest = 0.0;    ///< least half width of what blocks, with the distance to keep [m]
+  double largest = 0.0;     ///< greatest half extent of it [m]
 };
 
 /// How far ahead is looked.

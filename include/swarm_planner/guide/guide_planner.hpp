@@ -32,8 +32,8 @@ struct GuideRequest {
 enum class GuideState : std::uint8_t {
   kNotNeeded,  ///< the reference is clear within reach
   kGuided,
-  kNoWay,  ///< the reference is blocked, and no way round was found
-  kWaiting ///< the reference is blocked; its turn to be searched for has not come
+  kNoWay,   ///< the reference is blocked, and no way round was found
+  kWaiting  ///< the reference is blocked; its turn to be searched for has not come
 };
 
 /// A way round what blocks a reference.
@@ -124,9 +124,9 @@ class GuidePlanner {
   std::vector<Box> boxes_;           ///< of the bodies over the time looked at
   double widest_ = 0.0;              ///< extent of a box along x [m]
   std::vector<Want> wants_;
-  std::vector<Blockage> blockages_;        ///< by UAV, where it is wanted
-  std::vector<std::uint32_t> ages_;        ///< rounds since the answer was found
-  std::vector<std::uint32_t> waits_;       ///< rounds that a want was passed over
+  std::vector<Blockage> blockages_;   ///< by UAV, where it is wanted
+  std::vector<std::uint32_t> ages_;   ///< rounds since the answer was found
+  std::vector<std::uint32_t> waits_;  ///< rounds that a want was passed over
   int expansions_ = 0;
   int searches_ = 0;
 };

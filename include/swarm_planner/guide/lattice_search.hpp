@@ -30,8 +30,8 @@ enum class SearchOutcome {
 /// Searches the cheapest way from start to goal: A* on a cubic lattice about the start, whose axes lie along the way,
 /// to the right of it and above. Parents are any points of the lattice in sight (lazy Theta*: Nash, Koenig and Tovey,
 /// AAAI 2010), and the goal is looked for from every node that is expanded, so that ways are straight where they can
-/// be. Every piece of a way has been found clear at the time at which it is flown. The cost is length plus traffic, and the
-/// heuristic the distance to the goal. Draws go to the right. Fixed memory; the same query gives the same way.
+/// be. Every piece of a way has been found clear at the time at which it is flown. The cost is length plus traffic, and
+/// the heuristic the distance to the goal. Draws go to the right. Fixed memory; the same query gives the same way.
 class LatticeSearch {
  public:
   LatticeSearch();

@@ -12,7 +12,8 @@
 
 namespace swarm_planner {
 
-/// What a UAV is about to fly, coarsely: where it will be at the ends of every other stage, from the search's time zero.
+/// What a UAV is about to fly, coarsely: where it will be at the ends of every other stage, from the search's time
+/// zero.
 struct PlannedFlight {
   static constexpr std::size_t kPoints = kHorizon / 2 + 1;
 

@@ -6,11 +6,15 @@
 
 namespace swarm_planner {
 
-/// What a UAV follows in this cycle, and how far along it is.
+struct UavRecord;
+
+/// What a UAV follows in this cycle: its mission, or where its mode takes it.
 struct FollowedTarget {
   const MovingTarget& target;
-  const double& progress;  ///< arc length of the UAV's foot [m]
+  bool& on_path;     ///< `progress` holds
+  double& progress;  ///< arc length of the foot of the last start [m]
 };
+FollowedTarget followedTarget(UavRecord& record);
 
 /// Whether a guide may lead a UAV: on the ground and in descent nothing but what was asked for will do, and who brakes
 /// or holds is where it is to be.

@@ -13,9 +13,9 @@
 
 namespace swarm_planner {
 
-/// Between planning cycles and the search for guides, which runs beside them: a cycle leaves what it knows here, another
-/// thread searches, and a later cycle takes the answers. Neither waits for the other; while a search is not done
-/// cycles leave nothing new. Nothing here takes heap after it is made.
+/// Between planning cycles and the search for guides, which runs beside them: a cycle leaves what it knows here,
+/// another thread searches, and a later cycle takes the answers. Neither waits for the other; while a search is not
+/// done cycles leave nothing new. Nothing here takes heap after it is made.
 class GuideDesk {
  public:
   GuideDesk(const Parameters& parameters, const std::optional<Workspace>& workspace, std::size_t uavs,
@@ -26,18 +26,16 @@ class GuideDesk {
   /// In a cycle, after UAVs have planned for `epoch` [s]: asks for guides, unless a search is under way. The motions at
   /// rest of others count as something to go round once they have lasted for a while.
   void ask(double epoch, const std::vector<TrackedObstacle>& tracks, const std::vector<ForeignBody>& foreign,
-           const std::vector<UavRecord>& uavs);
+           std::vector<UavRecord>& uavs);
   /// Searches what was asked for last, on any thread, one at a time. False if nothing was.
   bool search();
-  /// Expansions of the newest round that is done.
-  int expansions() const { return expansions_; }
 
  private:
   enum class Turn { kCycle, kAsked, kSearch, kAnswered };
 
   void addObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation);
   void addUav(std::size_t uav, double epoch, const UavRecord& record);
-  void fillRequest(const UavRecord& record, GuideRequest& request) const;
+  void fillRequest(UavRecord& record, GuideRequest& request) const;
 
   const Parameters& parameters_;
   Workspace workspace_;
@@ -47,7 +45,6 @@ class GuideDesk {
   std::vector<GuideAnswer> answers_;
   std::vector<double> quiet_since_;  ///< of each UAV [s]
   GuidePlanner planner_;
-  int expansions_ = 0;
   std::atomic<Turn> turn_{Turn::kCycle};
 };
 

@@ -7,6 +7,7 @@
 
 #include "swarm_planner/guide/guide_planner.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
+#include "swarm_planner/swarm/cycle_report.hpp"
 
 namespace swarm_planner {
 
@@ -22,20 +23,21 @@ class GuidedFlight {
 
   /// Takes an answer to a request for what is followed now; others are not looked at.
   void take(const GuideAnswer& answer, const MovingTarget& target);
-  void drop() { active_ = false; }
+  /// The next thing followed is another one, even if it is at the same place.
+  void forget();
 
   bool active() const { return active_; }
   /// A plan shifted from the cycle before does not lead along it: the guide is new, or the last plan did not get on.
   bool needsFreshStart() const { return active_ && needs_fresh_start_; }
   /// The plan made for the pose of this cycle ends at `end` [m].
   void notePlan(const Vector3& end, const UavProblem& problem);
-  /// The reference is blocked, and no way round it is known.
-  bool hasNoWay() const { return has_no_way_; }
+  /// Why the UAV is right to stand where it is, kNone if it is not because of what blocks its way.
+  Reason reasonToStand() const;
   const ReferencePath& path() const { return path_; }
 
   /// Makes the problem that of following the guide: its path, and targets that move along it as the UAV can: from its
-  /// foot and its speed on, slower round corners. `progress`: of the UAV on what it follows [m]; kept at where the guide
-  /// joins that.
+  /// foot and its speed on, slower round corners. `progress`: of the UAV on what it follows [m]; kept at where the
+  /// guide joins that.
   void pose(const MovingTarget& target, double& progress, UavProblem& problem);
 
  private:

@@ -47,6 +47,9 @@ class SwarmPlanner {
   TargetState target(std::size_t uav, double t) const;
   const MovingTarget& reference(std::size_t uav) const;
 
+  /// What the UAV flies along in place of its reference because that is blocked; null if there is nothing like that.
+  const ReferencePath* guide(std::size_t uav) const;
+
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` of 1 to kMostPathPoints plausible
   /// points, start >= 0 finite, 0 <= speed <= kMostSpeed; throws std::invalid_argument with the reason otherwise. Call
   /// it between cycles. While the UAV does not fly its mission, the time zero waits until it does.

@@ -61,10 +61,10 @@ class UavPlanner {
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
   double lag_ = 0.0;                     ///< on what is followed, guide or not [m]
 
-  Trajectory plan_;                ///< in work
-  Trajectory shifted_;             ///< the motion flown, from the start in work on
-  Trajectory step_;                ///< between the two
-  Trajectory along_;               ///< solved from where the guide alone leads
+  Trajectory plan_;     ///< in work
+  Trajectory shifted_;  ///< the motion flown, from the start in work on
+  Trajectory step_;     ///< between the two
+  Trajectory along_;    ///< solved from where the guide alone leads
   ActiveRows along_active_;
   std::vector<MovingBody> no_bodies_;
   CommittedMotion motion_;         ///< of the plan that is checked

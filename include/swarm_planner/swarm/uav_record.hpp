@@ -32,9 +32,9 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  FlightTask task;    ///< what it is to do, as commands left it
+  FlightTask task;     ///< what it is to do, as commands left it
   GuidedFlight guide;  ///< round what blocks what it follows
-  ActiveRows active;  ///< of the last QP, at `active_epoch`
+  ActiveRows active;   ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it
@@ -69,11 +69,5 @@ struct UavRecord {
   void startAnew(const UavMeasurement& measurement, double epoch, const Parameters& parameters,
                  const FlightBounds& bounds);
 };
-
-/// The mission's reference, or what the UAV's task has it follow instead.
-inline FollowedTarget followedBy(const UavRecord& record) {
-  if (record.task.mode == FlightMode::kFlying) return {record.reference, record.progress};
-  return {record.task.target, record.task.target_progress};
-}
 
 }  // namespace swarm_planner
