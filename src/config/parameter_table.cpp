@@ -123,6 +123,9 @@ void addLimits(TableBuilder& table) {
       "segment_constraints", [](P& p) -> bool& { return p.limits.segment_constraints; },
       "false: constraints hold at the samples alone; for negative controls only");
   table.boolean(
+      "guide", [](P& p) -> bool& { return p.limits.guide; },
+      "false: no ways round what blocks references are searched; for negative controls only");
+  table.boolean(
       "latency_compensation", [](P& p) -> bool& { return p.limits.latency_compensation; },
       "false: measurements count as of the present, and plans start from them; for negative controls only");
 }

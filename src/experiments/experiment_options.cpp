@@ -335,6 +335,7 @@ options:
                          check      plans fly unchecked
                          segments   constraints hold at the samples alone, not between them
                          latency    measurements count as of the present, and plans start from them
+                         guide      no ways round what blocks references are searched
                          avoidance  plans ignore obstacles and other UAVs
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it

@@ -78,6 +78,12 @@ Superellipsoid Superellipsoid::movedBy(double dt) const {
   return moved;
 }
 
+Superellipsoid Superellipsoid::atLevel(double level) const {
+  Vector3 radii = radii_;
+  for (int axis = 0; axis < 3; ++axis) radii[axis] *= std::pow(level, 1.0 / exponents_[axis]);
+  return Superellipsoid(id_, center_, radii, exponents_, yaw_, velocity_);
+}
+
 Vector3 Superellipsoid::toBody(const Vector3& u) const {
   return Vector3(cos_yaw_ * u.x() + sin_yaw_ * u.y(), cos_yaw_ * u.y() - sin_yaw_ * u.x(), u.z());
 }

@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace swarm_planner {
+namespace {
+
+constexpr double kAsGood = 1.2;  // a plane that loses less of the distance is not replaced by the one at the nearest point
+
+}  // namespace
 
 MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
                                     const DistanceGrowth& growth) {
@@ -58,6 +63,13 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
   }
   const Gauge gauge = obstacle_->gauge(r, level_);
   const double steepness = gauge.gradient.norm();
+  // The distance to the surface lies between that to the plane and that along the line to the centre.
+  const bool is_outside = precise_ && gauge.value > 1.0;
+  if (is_outside && r.norm() * (1.0 - 1.0 / gauge.value) > kAsGood * (gauge.value - 1.0) / steepness) {
+    Vector3 normal;
+    const double distance = obstacle_->signedDistance(obstacle_->center() + r, normal);
+    return {normal, normal.dot(r) - distance + distance_};
+  }
   return {gauge.gradient / steepness, 1.0 / steepness + distance_};
 }
 

@@ -8,10 +8,22 @@
 namespace swarm_planner {
 
 ReferencePath::ReferencePath(const std::vector<Vector3>& points) {
-  points_.reserve(points.size());
-  arc_lengths_.reserve(points.size());
-  tangents_.reserve(points.size());
-  for (const Vector3& point : points) {
+  reserve(points.size());
+  assign(points.data(), points.size());
+}
+
+void ReferencePath::reserve(std::size_t points) {
+  points_.reserve(points);
+  arc_lengths_.reserve(points);
+  tangents_.reserve(points);
+}
+
+void ReferencePath::assign(const Vector3* points, std::size_t count) {
+  points_.clear();
+  arc_lengths_.clear();
+  tangents_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3& point = points[i];
     const double step = points_.empty() ? 0.0 : (point - points_.back()).norm();
     if (!points_.empty() && step < kShortestSegment) continue;
     if (!points_.empty()) tangents_.push_back((point - points_.back()) / step);

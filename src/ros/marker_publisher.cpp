@@ -58,6 +58,8 @@ void MarkerPublisher::update(const SwarmPlanner& planner, const PlannerStatus& s
     drawing.targeted = true;
     drawing.reference = planner.reference(uav);
     drawing.target = planner.target(uav, toSeconds(status.header.stamp));
+    drawing.guide.clear();
+    if (const ReferencePath* guide = planner.guide(uav)) drawing.guide = guide->points();
   }
 }
 

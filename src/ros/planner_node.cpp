@@ -61,6 +61,7 @@ double epochFor(double expected, double now, double period) {
 
 PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const PlannerNodeOptions& options)
     : planner_(std::move(planner)),
+      guides_(planner_),
       names_(namesOf(planner_)),
       frame_(options.planning_frame.empty() ? mission.scenario.frame_id : options.planning_frame),
       cycle_period_(mission.parameters.time.cycle_period),
@@ -108,6 +109,7 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   inputs_.store().fill(now, snapshot_);
   snapshot_.now = std::min(snapshot_.now, epoch);
   planner_.plan(snapshot_, epoch, budget_.forPlansDueIn(epoch - toSeconds(ros::Time::now())));
+  guides_.wake();
   const bool deadline_missed = toSeconds(ros::Time::now()) > epoch;
   publishCycle(now, deadline_missed);
   startRepeats();

@@ -20,6 +20,8 @@ constexpr int kObstacleSlices = 40;
 constexpr double kArrowTime = 4.0;
 // Characters in a line of a label; a note in a single line would run off the screen.
 constexpr std::size_t kLabelWidth = 36;
+// So long a guide is shown after it was drawn last [s].
+constexpr double kGuideLifetime = 0.5;
 // Slower is shown as standing still [m/s].
 constexpr double kStandstill = 1e-3;
 
@@ -135,6 +137,7 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
   }
   if (uav.planned) addPlan(index, uav);
   if (uav.targeted) addTarget(index, uav);
+  if (uav.guide.size() > 1) addGuide(index, uav);
 }
 
 void SceneMarkers::addPlan(int index, const UavDrawing& uav) {
@@ -159,6 +162,15 @@ void SceneMarkers::addTarget(int index, const UavDrawing& uav) {
   target.pose.position = toPoint(uav.target.p);
   setScale(Vector3::Constant(0.6 * sizes_.uav), target);
   target.color = uavColor(index, 0.9F);
+}
+
+void SceneMarkers::addGuide(int index, const UavDrawing& uav) {
+  Marker& guide = add("guide", index, Marker::LINE_STRIP);
+  guide.points = toPoints(uav.guide);
+  guide.scale.x = 0.08 * sizes_.uav;
+  guide.color = uavColor(index, 0.9F);
+  // Nobody takes it away when the reference is clear again.
+  guide.lifetime = ros::Duration(kGuideLifetime);
 }
 
 void SceneMarkers::addReference(int index, const MovingTarget& reference, double until) {

@@ -87,6 +87,10 @@ const char* reasonText(Reason reason) {
       return "gives way: an obstacle will come to where it could rest";
     case Reason::kEvadesUnseen:
       return "without odometry, and its motion is not clear any more; flies a new one from where it should be";
+    case Reason::kNoWayRound:
+      return "its way is blocked and no way round is found; waits and looks again";
+    case Reason::kEndNotClear:
+      return "the end of its way is not clear; waits as near as is safe";
   }
   return "unknown reason";
 }

@@ -137,6 +137,7 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
     const Superellipsoid& obstacle = track.shape;
     MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance + track.inflation, track.growth);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
+    if (problem.is_guided) body.setPrecise();
     body.relieve(problem.start.p - obstacle.center(), parameters_.limits.tracking_margin);
     body.setIdentity(2 * static_cast<std::uint32_t>(obstacle.id()));
     problem.bodies.push_back(body);

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "swarm_planner/config/plausible.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
+#include "swarm_planner/swarm/guide_desk.hpp"
+#include "swarm_planner/swarm/reference_rules.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -42,6 +42,7 @@ class SwarmPlanner::Impl {
         surroundings(parameters, uavs.size(), maxTracks(mission)),
         takeover(homesOf(mission.scenario)),
         director(mission, parameters),
+        guides(parameters, mission.scenario.workspace, uavs.size(), maxTracks(mission)),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -109,9 +110,15 @@ class SwarmPlanner::Impl {
     report.refused_tracks = tracks.refused() + tracks.keepNearest(measuredPlaces(snapshot));
     observeBeginners(snapshot);
     if (!planning) start(epoch);
-    if (planning) planAll(snapshot, epoch, stopwatch, budget);
+    if (planning) {
+      guides.takeAnswers(uavs);
+      planAll(snapshot, epoch, stopwatch, budget);
+      guides.ask(epoch, tracks.tracks(), foreign_bodies, uavs);
+    }
     report.cycle_time = stopwatch.elapsed();
   }
+
+  bool searchGuides() { return guides.search(); }
 
   const Parameters parameters;
   std::vector<UavRecord> uavs;
@@ -321,6 +328,7 @@ class SwarmPlanner::Impl {
   Takeover takeover;
   bool planning = false;  ///< the first plans have been made
   FlightDirector director;
+  GuideDesk guides;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
@@ -342,6 +350,8 @@ const CycleReport& SwarmPlanner::plan(const Snapshot& snapshot, double epoch, do
   return impl_->report;
 }
 
+bool SwarmPlanner::searchGuides() { return impl_->searchGuides(); }
+
 const CycleReport& SwarmPlanner::report() const { return impl_->report; }
 const CommittedMotion& SwarmPlanner::committed(std::size_t uav) const { return impl_->uavs[uav].motions.newest(); }
 
@@ -352,21 +362,14 @@ TargetState SwarmPlanner::target(std::size_t uav, double t) const {
 
 const MovingTarget& SwarmPlanner::reference(std::size_t uav) const { return impl_->uavs[uav].reference; }
 
+const ReferencePath* SwarmPlanner::guide(std::size_t uav) const {
+  const GuidedFlight& guide = impl_->uavs[uav].guide;
+  return guide.active() ? &guide.path() : nullptr;
+}
+
 void SwarmPlanner::setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
   if (uav >= impl_->uavs.size()) throw std::invalid_argument("there is no UAV " + std::to_string(uav));
-  if (path.empty()) throw std::invalid_argument("the path has no point");
-  if (path.size() > kMostPathPoints) {
-    throw std::invalid_argument("the path has " + std::to_string(path.size()) + " points, at most " +
-                                std::to_string(kMostPathPoints) + " allowed");
-  }
-  if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return point.allFinite(); })) {
-    throw std::invalid_argument("the path has a point that is not finite");
-  }
-  if (!std::all_of(path.begin(), path.end(), [](const Vector3& point) { return isWithin(point, kMostCoordinate); })) {
-    throw std::invalid_argument("the path has a point more than 1e7 m from the origin");
-  }
-  if (!(start >= 0.0) || !std::isfinite(start)) throw std::invalid_argument("start must be finite and >= 0");
-  if (!(speed >= 0.0 && speed <= kMostSpeed)) throw std::invalid_argument("speed must be within [0, 1000] m/s");
+  requireReference(path, start, speed);
   impl_->uavs[uav].setReference(path, start, speed);
 }
 

@@ -21,6 +21,7 @@ constexpr double kReserve = 0.002;       // of the bounds, that the solver stays
 constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
 constexpr double kSameShortfall = 1e-3;  // [m s]
 constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
+constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -196,11 +197,13 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   }
   plan_ = shifted_;
   guessActiveRows(epoch, record);
-  const SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  if (!result.solved) plan_ = shifted_;
+  if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
+  record.guide.notePlan(plan_.knots.back().p, problem_);
   report.sqp_iterations += result.iterations;
   report.qp_iterations += result.qp_iterations;
   report.solved = result.solved;
-  if (!result.solved) plan_ = shifted_;
 
   report.max_slack = result.max_violation;
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
@@ -224,6 +227,25 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     return {};
   }
   return verdict;
+}
+
+void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
+  along_ = shifted_;
+  along_active_.count = 0;
+  std::swap(problem_.bodies, no_bodies_);
+  const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
+  std::swap(problem_.bodies, no_bodies_);
+  along_active_.count = 0;
+  SqpResult other = sqp_.solve(problem_, along_, along_active_);
+  const int iterations = result.iterations + alone.iterations + other.iterations;
+  const int qp_iterations = result.qp_iterations + alone.qp_iterations + other.qp_iterations;
+  if (other.solved && (!result.solved || other.merit < result.merit)) {
+    plan_ = along_;
+    active = along_active_;
+    result = other;
+  }
+  result.iterations = iterations;
+  result.qp_iterations = qp_iterations;
 }
 
 void UavPlanner::limitDoubts(double epoch, const CommittedMotion& flown) {
@@ -344,6 +366,8 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
     report.reason = Reason::kOffPlan;
     report.deviation = record.off_plan_distance;
   }
+  const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
+  if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTask(record.task, report);
 }
@@ -359,12 +383,10 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const bool on_mission = record.task.mode == FlightMode::kFlying;
   double detour_progress = 0.0;
   bool on_detour_path = true;
-  const MovingTarget& target = on_detour_ ? detour_ : on_mission ? record.reference : record.task.target;
-  bool& on_path = on_detour_ ? on_detour_path : on_mission ? record.on_reference : record.task.on_target_path;
-  double& progress = on_detour_ ? detour_progress : on_mission ? record.progress : record.task.target_progress;
+  const auto [target, on_path, progress] =
+      on_detour_ ? FollowedTarget{detour_, on_detour_path, detour_progress} : followedTarget(record);
   const double full_speed = parameters_.limits.max_speed;
   progress = on_path ? target.path.advance(record.start.p, progress, kPassed * full_speed * problem_.dt)
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
@@ -375,6 +397,9 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   problem_.progress = progress;
   problem_.targets = previewTargets(target, progress, full_speed, epoch, problem_.dt);
   lag_ = target.at(epoch).arc_length - progress;
+  if (!on_detour_) record.guide.setFollowed(target);
+  problem_.is_guided = !on_detour_ && record.guide.active();
+  if (problem_.is_guided) record.guide.pose(target, progress, problem_);
   surroundings.collect(uav, problem_);
 }
 

@@ -22,6 +22,11 @@ double leastDistanceOff(const Parameters& parameters) {
 
 }  // namespace
 
+FollowedTarget followedTarget(UavRecord& record) {
+  if (record.task.mode == FlightMode::kFlying) return {record.reference, record.on_reference, record.progress};
+  return {record.task.target, record.task.on_target_path, record.task.target_progress};
+}
+
 void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length, double speed) {
   reference = MovingTarget();
   reference.path = ReferencePath(path);
@@ -31,6 +36,7 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   beginning.on_reference = false;
   reference_pending = true;
   on_reference = false;
+  guide.forget();
 }
 
 void UavRecord::reset() {
@@ -43,6 +49,7 @@ void UavRecord::reset() {
   reference_pending = true;
   on_reference = false;
   active.count = 0;
+  guide.forget();
   monitor = OdometryMonitor();
   unseen = evades = false;
   following.reset();

@@ -56,6 +56,7 @@ const CycleReport& PerfectFlight::cycle(const std::function<void(Snapshot&)>& ta
   measure();
   if (tamper) tamper(snapshot_);
   const double epoch = now_ + mission_.parameters.time.cycle_period;
+  planner_.searchGuides();
   const CycleReport& report = planner_.plan(snapshot_, epoch, budget);
   watch(now_, epoch);
   now_ = epoch;

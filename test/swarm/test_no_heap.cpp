@@ -120,7 +120,10 @@ std::int64_t heapCallsOfFlight(const Mission& mission, int cycles,
     }
     if (tamper) tamper(cycle, snapshot);
     if (command) command(cycle, planner);
-    sum += heapCalls([&] { planner.plan(snapshot, snapshot.now + period); });
+    sum += heapCalls([&] {
+      planner.plan(snapshot, snapshot.now + period);
+      planner.searchGuides();
+    });
   }
   return sum;
 }
@@ -216,6 +219,24 @@ TEST_F(NoHeap, ObstaclesThatAppearInFlightAllocateNothing) {
     }
   };
   EXPECT_EQ(heapCallsOfFlight(mission, 120, tamper), 0);
+}
+
+// A wall of boxes with gaps: guides are made, kept, changed and dropped.
+TEST_F(NoHeap, FlyingAlongGuidesAllocatesNothing) {
+  Mission mission =
+      makeTestMission({Vector3(0, -3, 10), Vector3(0, 3, 10)}, {Vector3(60, -3, 10), Vector3(60, 3, 10)}, 3.0);
+  for (int i = 0; i < 3; ++i) {
+    ScenarioObstacle box;
+    box.id = i;
+    box.center = Vector3(20 + 10 * i, i == 1 ? 3 : -3, 10);
+    box.radii = Vector3(2, 6, 9);
+    box.exponents = Vector3::Constant(10.0);
+    mission.scenario.obstacles.push_back(box);
+  }
+  int guided = 0;
+  const auto count = [&guided](int, SwarmPlanner& planner) { guided += planner.guide(0) != nullptr ? 1 : 0; };
+  EXPECT_EQ(heapCallsOfFlight(mission, 120, nullptr, count), 0);
+  EXPECT_GT(guided, 10);
 }
 
 TEST_F(NoHeap, RememberingTracksAllocatesNothing) {

@@ -26,7 +26,11 @@ class IterativePlanner : public CyclePlanner {
   /// `mission` must outlive the planner.
   explicit IterativePlanner(const Mission& mission) : mission_(mission), planner_(mission) {}
 
-  const CycleReport& plan(const Snapshot& snapshot, double epoch) override { return planner_.plan(snapshot, epoch); }
+  const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
+    // Guides of one cycle are used in the next, whatever their search takes: a run can be repeated.
+    planner_.searchGuides();
+    return planner_.plan(snapshot, epoch);
+  }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
   void restart() override { planner_ = SwarmPlanner(mission_); }
 

@@ -16,10 +16,11 @@ struct NegativeControl {
   bool LimitParameters::*kept;  ///< the same parameter
 };
 
-constexpr std::array<NegativeControl, 4> kNegativeControls{{
+constexpr std::array<NegativeControl, 5> kNegativeControls{{
     {"check", "plan_check", &LimitParameters::plan_check},
     {"segments", "segment_constraints", &LimitParameters::segment_constraints},
     {"latency", "latency_compensation", &LimitParameters::latency_compensation},
+    {"guide", "guide", &LimitParameters::guide},
     {"avoidance", "avoidance", &LimitParameters::avoidance},
 }};
 

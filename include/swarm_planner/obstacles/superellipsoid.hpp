@@ -39,6 +39,9 @@ class Superellipsoid {
   /// The same body moved by `dt` seconds at its velocity.
   Superellipsoid movedBy(double dt) const;
 
+  /// The body that the surface S = `level` >= 1 of this one encloses: |x / (level^(1/px) a)|^px and so on.
+  Superellipsoid atLevel(double level) const;
+
   /// S of (7), the sum inside the logarithm, |.|^p term by term. `u`: point minus centre [m].
   /// Infinite where it exceeds the range of double (far away with large exponents).
   double sum(const Vector3& u) const;

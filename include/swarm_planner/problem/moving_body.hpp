@@ -60,6 +60,10 @@ class MovingBody {
     return motion_ != nullptr ? motion_->point(k, i) : obstacle_->center() + (k + i / 3.0) * step_;
   }
 
+  /// From now on the half-spaces of an obstacle are those at its point nearest to `r`, instead of at its point towards
+  /// its centre: round the edge of a thin wall the latter do not lead. Takes longer.
+  void setPrecise() { precise_ = true; }
+
   /// A half-space whose boundary supports the set, grown by the distance to keep at the horizon's start, towards `r`.
   /// Whatever lies in it is clear of the body then.
   HalfSpace supportingHalfSpace(const Vector3& r) const;
@@ -81,6 +85,7 @@ class MovingBody {
   Vector3 step_ = Vector3::Zero();  ///< of an obstacle's centre per stage [m]
   std::uint32_t identity_ = 0;
   double level_ = 1.0;
+  bool precise_ = false;
   double distance_ = 0.0;
   DistanceGrowth growth_;
   Vector3 scale_ = Vector3::Ones();  ///< shorter semi-axis over each semi-axis of a pair ellipsoid

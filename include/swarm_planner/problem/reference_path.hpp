@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -45,6 +46,21 @@ class ReferencePath {
   double nextCorner(double arc_length) const;
   double nextSharpCorner(double arc_length) const;
   const std::vector<Vector3>& points() const { return points_; }
+
+  /// Calls visit(point, arc length) for the corners after `arc_length` [m] and the end, in order, until it returns
+  /// false.
+  template <class Visitor>
+  void forEachPointAfter(double arc_length, const Visitor& visit) const {
+    const auto first = std::upper_bound(arc_lengths_.begin(), arc_lengths_.end(), arc_length);
+    for (auto i = static_cast<std::size_t>(first - arc_lengths_.begin()); i < points_.size(); ++i) {
+      if (!visit(points_[i], arc_lengths_[i])) return;
+    }
+  }
+
+  /// Room for `points` points: assign() takes no heap up to so many.
+  void reserve(std::size_t points);
+  /// Becomes the polyline through `count` >= 1 points.
+  void assign(const Vector3* points, std::size_t count);
 
  private:
   /// Cosine of the turn from which a corner is sharp: a little more than a right angle.

@@ -38,6 +38,7 @@ struct UavProblem {
   double epoch = 0.0;     ///< [s]
   double dt = 0.0;        ///< [s]
   StageTargets targets;
+  bool is_guided = false;          ///< the path leads round the obstacles
   std::vector<MovingBody> bodies;  ///< whatever can be reached within the horizon
 };
 

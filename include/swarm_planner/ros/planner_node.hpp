@@ -22,6 +22,7 @@
 #include "swarm_planner/ros/planner_options.hpp"
 #include "swarm_planner/ros/planner_outputs.hpp"
 #include "swarm_planner/ros/planning_budget.hpp"
+#include "swarm_planner/swarm/guide_thread.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
@@ -59,6 +60,7 @@ class PlannerNode {
   std::size_t uavIndex(const std::string& name) const;
 
   SwarmPlanner planner_;
+  GuideThread guides_;  ///< searches for planner_
   const std::vector<std::string> names_;
   const std::string frame_;
   const double cycle_period_;  ///< [s]

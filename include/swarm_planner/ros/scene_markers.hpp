@@ -37,11 +37,12 @@ struct UavDrawing {
   bool targeted = false;  ///< `reference` and `target` are known
   MovingTarget reference;
   TargetState target;
+  std::vector<Vector3> guide;  ///< what it flies along in place of the reference; empty if it does not
 };
 
 /// Makes rviz markers of a swarm. Namespaces, to switch on and off in rviz: uav, label, trail, plan, rest, reference,
-/// target, separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id. The label of a UAV
-/// that is of concern is orange; where there is an alarm, label, plan and separation are red.
+/// target, guide, separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id. The label of a
+/// UAV that is of concern is orange; where there is an alarm, label, plan and separation are red.
 class SceneMarkers {
  public:
   SceneMarkers(std::string frame, const MarkerSizes& sizes);
@@ -63,6 +64,7 @@ class SceneMarkers {
   visualization_msgs::Marker& add(const char* ns, int id, int type);
   void addPlan(int index, const UavDrawing& uav);
   void addTarget(int index, const UavDrawing& uav);
+  void addGuide(int index, const UavDrawing& uav);
 
   const std::string frame_;
   const MarkerSizes sizes_;

@@ -48,10 +48,12 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
-  kTakingOver,    ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kTakingOver,   ///< in flight at the planner's start: what it flies goes on until inputs are known
   kNotFollowing,  ///< the vehicle does not do what it is told; planned for from where it is
   kGivesWay,      ///< an obstacle will come to where it could rest: goes to a place beside its way
   kEvadesUnseen,  ///< without odometry: a new motion, because the one before was not clear any more
+  kNoWayRound,   ///< something is in the way of what the UAV follows, and no way round it is found
+  kEndNotClear,  ///< the end of what it follows is inside something: it waits as near as is safe
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);

@@ -34,6 +34,11 @@ class SwarmPlanner {
   /// cycle.
   const CycleReport& plan(const Snapshot& snapshot, double epoch,
                           double budget = std::numeric_limits<double>::infinity());
+  /// Searches ways round what blocks references, as the last cycle left it to be done; without it UAVs fly without
+  /// guides. To be called after each plan(), on any thread: a cycle meanwhile neither waits nor is disturbed, and one
+  /// after it uses what was found. Calls one at a time. Called between cycles it makes runs that can be repeated. False
+  /// if there was nothing to do.
+  bool searchGuides();
   const CycleReport& report() const;
 
   /// What a UAV is to fly, its stop included; meaningful where report().uavs[uav].planned.
@@ -41,6 +46,9 @@ class SwarmPlanner {
   /// Where the UAV's target is at time `t`; before t = 0 of the run at its start.
   TargetState target(std::size_t uav, double t) const;
   const MovingTarget& reference(std::size_t uav) const;
+
+  /// What the UAV flies along in place of its reference because that is blocked; null if there is nothing like that.
+  const ReferencePath* guide(std::size_t uav) const;
 
   /// Replaces a UAV's reference; its time zero is the next epoch. `path` of 1 to kMostPathPoints plausible
   /// points, start >= 0 finite, 0 <= speed <= kMostSpeed; throws std::invalid_argument with the reason otherwise. Call

@@ -52,6 +52,8 @@ class UavPlanner {
   /// Solves from record.start and leaves the motion of the longest step towards the solution that passes the check.
   CheckVerdict propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                        UavReport& report);
+  /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
+  void solveAlongGuide(ActiveRows& active, SqpResult& result);
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
   /// The workspace for this cycle: down to the ground for landing; for a UAV that is outside no farther than the motion
   /// flown takes it anyway, so that it may come back.
@@ -79,10 +81,14 @@ class UavPlanner {
   CheckSurroundings check_;
   double lag_ = 0.0;                     ///< of the start behind the target, along the path [m]
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
+  double lag_ = 0.0;                     ///< on what is followed, guide or not [m]
 
-  Trajectory plan_;                ///< in work
-  Trajectory shifted_;             ///< the motion flown, from the start in work on
-  Trajectory step_;                ///< between the two
+  Trajectory plan_;     ///< in work
+  Trajectory shifted_;  ///< the motion flown, from the start in work on
+  Trajectory step_;     ///< between the two
+  Trajectory along_;    ///< solved from where the guide alone leads
+  ActiveRows along_active_;
+  std::vector<MovingBody> no_bodies_;
   CommittedMotion motion_;         ///< of the plan that is checked
   CommittedMotion proposed_;       ///< of the solver's own plan, if it was refused
   bool flies_whole_plan_ = false;  ///< the solver's plan passed as it is

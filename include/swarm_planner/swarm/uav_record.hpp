@@ -8,7 +8,9 @@
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 #include "swarm_planner/swarm/flight_task.hpp"
+#include "swarm_planner/swarm/followed_target.hpp"
 #include "swarm_planner/swarm/following_watch.hpp"
+#include "swarm_planner/swarm/guided_flight.hpp"
 #include "swarm_planner/swarm/motion_doubt.hpp"
 #include "swarm_planner/swarm/motion_memory.hpp"
 #include "swarm_planner/swarm/odometry_monitor.hpp"
@@ -31,8 +33,9 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  FlightTask task;    ///< what it is to do, as commands left it
-  ActiveRows active;  ///< of the last QP, at `active_epoch`
+  FlightTask task;     ///< what it is to do, as commands left it
+  GuidedFlight guide;  ///< round what blocks what it follows
+  ActiveRows active;   ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it

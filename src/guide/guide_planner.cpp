@@ -1,0 +1,267 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/guide/guide_planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarm_planner {
+namespace {
+
+constexpr std::uint32_t kRenewal = 4;  // rounds until a guide that is clear is compared with a new one
+constexpr std::uint32_t kRetry = 5;    // rounds until a search that found nothing is repeated
+constexpr double kGain = 0.15;         // of the cost, that a new guide saves if it replaces one that is clear
+constexpr double kFinest = 30.0;       // cells on the straight line to the goal at most
+constexpr double kCoarsest = 10.0;     // at least
+constexpr double kCellShare = 0.5;     // of the half width of the narrowest body
+constexpr double kLongestTime = 60.0;  // that bodies are predicted for [s]
+constexpr int kRings = 32;             // around an end that is not clear
+constexpr double kBeyond = 0.5;        // of the blocked stretch, by which a goal lies beyond it
+constexpr double kMargin = 2.0;        // of the region about start and goal, in their distance and what blocks
+constexpr int kMostAttempts = 5;
+constexpr double kMissing = 1e6;  // urgency of a UAV without a guide that is clear
+
+Box grown(Box box, double by) {
+  box.min -= Vector3::Constant(by);
+  box.max += Vector3::Constant(by);
+  return box;
+}
+
+/// 26 directions, level ones first.
+const std::array<Vector3, 26>& directions() {
+  static const std::array<Vector3, 26> all = [] {
+    std::array<Vector3, 26> list;
+    std::size_t count = 0;
+    for (const int z : {0, 1, -1}) {
+      for (const int x : {1, 0, -1}) {
+        for (const int y : {-1, 0, 1}) {
+          if (x != 0 || y != 0 || z != 0) list[count++] = Vector3(x, y, z).normalized();
+        }
+      }
+    }
+    return list;
+  }();
+  return all;
+}
+
+Box boxOf(const FollowedPath& path, const Vector3& start) {
+  Box box;
+  box.include(start);
+  for (std::size_t i = 0; i < path.count; ++i) box.include(path.points[i]);
+  return box;
+}
+
+}  // namespace
+
+GuidePlanner::GuidePlanner(const GuideSettings& settings, std::size_t uavs, std::size_t most_bodies)
+    : settings_(settings),
+      space_(most_bodies),
+      traffic_(settings.horizontal, settings.vertical, uavs),
+      blockages_(uavs),
+      ages_(uavs, 0),
+      waits_(uavs, 0) {
+  by_x_.reserve(most_bodies);
+  boxes_.reserve(most_bodies);
+  wants_.reserve(uavs);
+}
+
+void GuidePlanner::sortBodies(const GuideScene& scene) {
+  boxes_.clear();
+  by_x_.clear();
+  widest_ = 0.0;
+  for (const GuideBody& body : scene.bodies) {
+    boxes_.push_back(grown(body.boxUntil(kLongestTime), settings_.comfort));
+    by_x_.push_back(static_cast<std::uint32_t>(by_x_.size()));
+    widest_ = std::max(widest_, boxes_.back().max.x() - boxes_.back().min.x());
+  }
+  std::sort(by_x_.begin(), by_x_.end(), [this](std::uint32_t a, std::uint32_t b) {
+    return boxes_[a].min.x() != boxes_[b].min.x() ? boxes_[a].min.x() < boxes_[b].min.x() : a < b;
+  });
+}
+
+void GuidePlanner::gather(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav, const Box& region,
+                          double time) {
+  space_.clear(request.workspace);
+  const auto first = std::lower_bound(by_x_.begin(), by_x_.end(), region.min.x() - widest_,
+                                      [this](std::uint32_t i, double x) { return boxes_[i].min.x() < x; });
+  for (auto i = first; i != by_x_.end() && boxes_[*i].min.x() <= region.max.x(); ++i) {
+    const GuideBody& body = scene.bodies[*i];
+    if (body.uav == uav || !boxes_[*i].near(region, 0.0)) continue;
+    if (grown(body.boxUntil(time), settings_.comfort).near(region, 0.0)) space_.add(body);
+  }
+}
+
+void GuidePlanner::gatherTraffic(const GuideScene& scene, std::uint32_t uav, const Box& region) {
+  traffic_.clear(scene.spacing);
+  for (std::uint32_t other = 0; other < scene.flights.size(); ++other) {
+    if (other != uav && scene.flights[other].box.near(region, 0.0)) traffic_.add(scene.flights[other]);
+  }
+}
+
+void GuidePlanner::plan(const GuideScene& scene, const std::vector<GuideRequest>& requests,
+                        std::vector<GuideAnswer>& answers) {
+  expansions_ = searches_ = 0;
+  wants_.clear();
+  sortBodies(scene);
+  for (std::uint32_t uav = 0; uav < requests.size(); ++uav) assess(scene, requests[uav], uav, answers[uav]);
+  std::sort(wants_.begin(), wants_.end(), [](const Want& a, const Want& b) {
+    return a.urgency != b.urgency ? a.urgency > b.urgency : a.uav < b.uav;
+  });
+  for (const Want& want : wants_) {
+    if (expansions_ >= kRoundBudget) {
+      ++waits_[want.uav];
+      continue;
+    }
+    waits_[want.uav] = 0;
+    search(scene, requests[want.uav], want, answers[want.uav]);
+  }
+}
+
+void GuidePlanner::assess(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav,
+                          GuideAnswer& answer) {
+  const bool is_same = answer.version == request.version;
+  answer.version = request.version;
+  if (!is_same || !request.wanted) answer.state = GuideState::kNotNeeded;
+  if (!request.wanted) return;
+  const bool has_guide = answer.state == GuideState::kGuided;
+  Box region = boxOf(request.path, request.start);
+  for (std::size_t i = 0; has_guide && i < answer.path.count; ++i) region.include(answer.path.points[i]);
+  gather(scene, request, uav, region, kLongestTime);
+  space_.relieve(request.start);
+  const LookAhead look{request.reach, settings_.least_gap};
+  const std::optional<Blockage> blockage =
+      findBlockage(request.path, request.start, {0.0, request.speed}, look, space_);
+  if (!blockage) {
+    answer.state = GuideState::kNotNeeded;
+    return;
+  }
+  blockages_[uav] = *blockage;
+  ++ages_[uav];
+  if (has_guide && isClearStill(request, answer)) {
+    if (ages_[uav] >= kRenewal) wants_.push_back({uav, static_cast<double>(waits_[uav]), true});
+    return;
+  }
+  if (answer.state == GuideState::kNoWay && ages_[uav] < kRetry) return;
+  if (answer.state == GuideState::kNotNeeded) answer.state = GuideState::kWaiting;
+  wants_.push_back({uav, kMissing + waits_[uav] - blockage->begin / request.speed, false});
+}
+
+bool GuidePlanner::isClearStill(const GuideRequest& request, const GuideAnswer& answer) {
+  space_.setComfort(-settings_.slack);
+  const GuidePath rest = restOf(answer.path, request.start);
+  const Pace pace{0.0, request.speed};
+  if (!isClear(rest, pace, space_)) return false;
+  if (!answer.rejoins) return true;
+  // On the reference, as far as it is within reach.
+  const double flown = rest.length();
+  const double first = answer.rejoin - request.path.begin;
+  const double last = std::min(first + request.reach - flown, request.path.length());
+  TimedPoint from = pace.after(rest.end(), flown);
+  for (std::size_t i = 1; i < request.path.count && request.path.ways[i - 1] < last; ++i) {
+    if (request.path.ways[i] <= first) continue;
+    const double way = std::min(request.path.ways[i], last);
+    const TimedPoint to = pace.after(request.path.at(way), flown + way - first);
+    if (!space_.isClear(from, to)) return false;
+    from = to;
+  }
+  return true;
+}
+
+std::optional<Vector3> GuidePlanner::nearestClear(const TimedPoint& end, const Vector3& from, double step) const {
+  for (int ring = 0; ring <= kRings; ++ring) {
+    std::optional<Vector3> best;
+    for (const Vector3& direction : directions()) {
+      const TimedPoint candidate{end.p + ring * step * direction, end.t};
+      if (best && (candidate.p - from).norm() >= (*best - from).norm()) continue;
+      if (space_.clearance(candidate) >= 0.0) best = candidate.p;
+    }
+    if (best) return best;
+  }
+  return std::nullopt;
+}
+
+std::optional<GuidePlanner::Goal> GuidePlanner::goalOf(const GuideRequest& request, const Blockage& blockage, bool far,
+                                                       double step) const {
+  const FollowedPath& path = request.path;
+  const bool to_end = far ? blockage.far_to_end : blockage.to_end;
+  if (to_end) {
+    const double time = (path.length() + (path.points[0] - request.start).norm()) / request.speed;
+    const std::optional<Vector3> place = nearestClear({path.at(path.length()), time}, request.start, step);
+    if (!place) return std::nullopt;
+    return Goal{*place, path.length(), false};
+  }
+  const double end = far ? blockage.far_end : blockage.near_end;
+  const double next = far ? blockage.far_next : blockage.next;
+  const double beyond = kBeyond * (end - blockage.begin);
+  const double way = next < path.length() ? std::min(end + beyond, 0.5 * (end + next)) : std::min(end + beyond, next);
+  return Goal{path.at(way), way, true};
+}
+
+void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer) {
+  ++searches_;
+  const Blockage& blockage = blockages_[want.uav];
+  // With more distance than demanded, round all that is within reach, if there is such a way.
+  Attempt attempt;
+  attempt.far = blockage.far_end != blockage.near_end;
+  for (int i = 0; i < kMostAttempts; ++i) {
+    const std::optional<Goal> goal = prepare(scene, request, want.uav, attempt);
+    SearchOutcome outcome = SearchOutcome::kNoWay;
+    if (goal) outcome = lattice_.search(query_, space_, traffic_, found_);
+    if (goal) expansions_ += lattice_.expansions();
+    if (outcome == SearchOutcome::kFound) {
+      tighten(found_, query_.pace, space_, traffic_);
+      take(request, want, *goal, answer);
+      return;
+    }
+    if (!attempt.far) {
+      // A lattice that is too fine for what blocks does not come round it; one that is too coarse sees no gap.
+      attempt.cell *= outcome == SearchOutcome::kBudgetSpent ? 2.0 : 0.5;
+      attempt.comfort = attempt.comfort && outcome == SearchOutcome::kBudgetSpent;
+    }
+    attempt.far = false;
+  }
+  ages_[want.uav] = 0;
+  if (!want.is_renewal) answer.state = GuideState::kNoWay;
+}
+
+std::optional<GuidePlanner::Goal> GuidePlanner::prepare(const GuideScene& scene, const GuideRequest& request,
+                                                        std::uint32_t uav, const Attempt& attempt) {
+  const Blockage& blockage = blockages_[uav];
+  const Vector3 towards = request.path.at(attempt.far ? blockage.far_end : blockage.near_end);
+  const double distance = std::max((towards - request.start).norm(), blockage.smallest);
+  query_.start = request.start;
+  query_.pace = {0.0, request.speed};
+  query_.budget = kSearchBudget;
+  query_.cell = attempt.cell * std::clamp(kCellShare * blockage.smallest, distance / kFinest, distance / kCoarsest);
+  query_.region = Box();
+  query_.region.include(request.start);
+  query_.region.include(towards);
+  query_.region = grown(query_.region, kMargin * (distance + blockage.largest));
+  gather(scene, request, uav, query_.region, std::min(kLongestTime, 2.0 * kMargin * distance / request.speed));
+  space_.setComfort(attempt.comfort ? settings_.comfort : 0.0);
+  space_.relieve(request.start);
+  gatherTraffic(scene, uav, query_.region);
+  const std::optional<Goal> goal = goalOf(request, blockage, attempt.far, query_.cell);
+  if (goal) query_.goal = goal->p;
+  return goal;
+}
+
+void GuidePlanner::take(const GuideRequest& request, const Want& want, const Goal& goal, GuideAnswer& answer) {
+  ages_[want.uav] = 0;
+  const double rejoin = request.path.begin + goal.rejoin;
+  if (want.is_renewal) {
+    // Each with the way on the reference to where the other one joins it.
+    const Pace pace{0.0, request.speed};
+    const double last = std::max(rejoin, answer.rejoin);
+    const double kept = costOf(restOf(answer.path, request.start), pace, traffic_) + last - answer.rejoin;
+    const double renewed = costOf(found_, pace, traffic_) + last - rejoin;
+    if (renewed > (1.0 - kGain) * kept) return;
+  }
+  answer.state = GuideState::kGuided;
+  ++answer.number;
+  answer.path = found_;
+  answer.branch = request.path.begin;
+  answer.rejoin = rejoin;
+  answer.rejoins = goal.rejoins;
+}
+
+}  // namespace swarm_planner
