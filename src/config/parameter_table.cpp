@@ -123,6 +123,9 @@ void addLimits(TableBuilder& table) {
       "segment_constraints", [](P& p) -> bool& { return p.limits.segment_constraints; },
       "false: constraints hold at the samples alone; for negative controls only");
   table.boolean(
+      "right_of_way", [](P& p) -> bool& { return p.limits.right_of_way; },
+      "false: no UAV gives way where several block each other; for negative controls only");
+  table.boolean(
       "latency_compensation", [](P& p) -> bool& { return p.limits.latency_compensation; },
       "false: measurements count as of the present, and plans start from them; for negative controls only");
 }

@@ -2,6 +2,7 @@
 #include "swarm_planner/problem/reference_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,24 +12,25 @@ ReferencePath::ReferencePath(const std::vector<Vector3>& points) {
   points_.reserve(points.size());
   arc_lengths_.reserve(points.size());
   tangents_.reserve(points.size());
-  for (const Vector3& point : points) {
-    const double step = points_.empty() ? 0.0 : (point - points_.back()).norm();
-    if (!points_.empty() && step < kShortestSegment) continue;
-    if (!points_.empty()) tangents_.push_back((point - points_.back()) / step);
+  assign(points.data(), points.size());
+}
+
+void ReferencePath::assign(const Vector3* points, std::size_t count) {
+  points_.clear();
+  arc_lengths_.clear();
+  tangents_.clear();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double step = i == 0 ? 0.0 : (points[i] - points_.back()).norm();
+    if (i > 0 && step < kShortestSegment) continue;
+    if (i > 0) tangents_.push_back((points[i] - points_.back()) / step);
     arc_lengths_.push_back(length() + step);
-    points_.push_back(point);
+    points_.push_back(points[i]);
   }
 }
 
 void ReferencePath::assignLine(const Vector3& begin, const Vector3& end) {
-  points_.assign(1, begin);
-  arc_lengths_.assign(1, 0.0);
-  tangents_.clear();
-  const double step = (end - begin).norm();
-  if (step < kShortestSegment) return;
-  tangents_.push_back((end - begin) / step);
-  arc_lengths_.push_back(step);
-  points_.push_back(end);
+  const std::array<Vector3, 2> points{begin, end};
+  assign(points.data(), points.size());
 }
 
 std::size_t ReferencePath::segmentAt(double arc_length) const {

@@ -21,6 +21,10 @@ bool isCommanded(Reason reason) {
   }
 }
 
+bool isTraffic(Reason reason) {
+  return reason == Reason::kGivesWay || reason == Reason::kWaits || reason == Reason::kParked;
+}
+
 bool isAlarm(Reason reason) { return reason == Reason::kNoSafePlan; }
 
 const char* reasonText(Reason reason) {
@@ -81,6 +85,12 @@ const char* reasonText(Reason reason) {
       return "stopped by command";
     case Reason::kTakingOver:
       return "in flight when the planner started; its last trajectory goes on until all inputs are known";
+    case Reason::kGivesWay:
+      return "gives way to";
+    case Reason::kWaits:
+      return "waits behind";
+    case Reason::kParked:
+      return "parked beside its end, which is taken by";
   }
   return "unknown reason";
 }

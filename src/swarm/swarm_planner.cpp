@@ -12,6 +12,7 @@
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
+#include "swarm_planner/swarm/right_of_way.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -42,6 +43,7 @@ class SwarmPlanner::Impl {
         surroundings(parameters, uavs.size(), maxTracks(mission)),
         takeover(homesOf(mission.scenario)),
         director(mission, parameters),
+        right_of_way(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -229,6 +231,7 @@ class SwarmPlanner::Impl {
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
+    right_of_way.direct(epoch, tracks.tracks(), judged, surroundings.neighbours(), uavs);
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
@@ -320,6 +323,7 @@ class SwarmPlanner::Impl {
   Takeover takeover;
   bool planning = false;  ///< the first plans have been made
   FlightDirector director;
+  RightOfWay right_of_way;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team

@@ -9,6 +9,7 @@
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/right_of_way.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 
@@ -262,6 +263,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
     report.deviation = record.off_plan_distance;
   }
   report.state = on_new_plan ? UavState::kTracking : UavState::kFallback;
+  reportTraffic(record.traffic, report);
   reportTask(record.task, report);
 }
 
@@ -276,10 +278,7 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const bool on_mission = record.task.mode == FlightMode::kFlying;
-  const MovingTarget& target = on_mission ? record.reference : record.task.target;
-  bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
-  double& progress = on_mission ? record.progress : record.task.target_progress;
+  const auto [target, on_path, progress] = followedTarget(record);
   progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
   on_path = true;

@@ -31,6 +31,7 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   beginning.on_reference = false;
   reference_pending = true;
   on_reference = false;
+  traffic.forget(traffic.since);
 }
 
 void UavRecord::reset() {
@@ -42,6 +43,7 @@ void UavRecord::reset() {
   reference.start = given_start;
   reference_pending = true;
   on_reference = false;
+  traffic = TrafficState();
   active.count = 0;
   monitor = OdometryMonitor();
   unseen = false;

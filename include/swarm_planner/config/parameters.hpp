@@ -46,6 +46,7 @@ struct LimitParameters {
   bool avoidance = true;             ///< obstacle and pair constraints
   bool plan_check = true;            ///< plans are checked before they fly
   bool segment_constraints = true;   ///< constraints hold between the samples; false: at the samples alone
+  bool right_of_way = true;          ///< UAVs give way to each other where none gets on
   bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 

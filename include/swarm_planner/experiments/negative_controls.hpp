@@ -16,11 +16,12 @@ struct NegativeControl {
   bool LimitParameters::*kept;  ///< the same parameter
 };
 
-constexpr std::array<NegativeControl, 4> kNegativeControls{{
+constexpr std::array<NegativeControl, 5> kNegativeControls{{
     {"check", "plan_check", &LimitParameters::plan_check},
     {"segments", "segment_constraints", &LimitParameters::segment_constraints},
     {"latency", "latency_compensation", &LimitParameters::latency_compensation},
     {"avoidance", "avoidance", &LimitParameters::avoidance},
+    {"right_of_way", "right_of_way", &LimitParameters::right_of_way},
 }};
 
 /// The names of what is left out.
