@@ -20,7 +20,7 @@ constexpr double kPast = 1.2;             // spacings behind a place at which a 
 constexpr double kLongest = 4.0;          // patiences without progress after which it is not waited for any longer
 constexpr double kMostInsistence = 32.0;  // times the patience
 constexpr int kSearchesPerCycle = 8;
-constexpr double kAsideSpeed = 0.5;       // of the most speed
+constexpr double kAsideSpeed = 0.5;  // of the most speed
 
 Vector3 endOf(const UavRecord& uav) { return uav.reference.path.at(uav.reference.path.length()).position; }
 
@@ -131,9 +131,8 @@ RightOfWay::Rank RightOfWay::rankOf(std::size_t i) const {
 Way RightOfWay::wayOf(std::size_t i) const {
   UavRecord& uav = (*uavs_)[i];
   const FollowedTarget followed = followedTarget(uav);
-  const double foot = followed.on_path
-                          ? followed.target.path.nearest(uav.start.p, followed.progress).arc_length
-                          : followed.target.path.nearest(uav.start.p, 0.0, kInfinity).arc_length;
+  const double foot = followed.on_path ? followed.target.path.nearest(uav.start.p, followed.progress).arc_length
+                                       : followed.target.path.nearest(uav.start.p, 0.0, kInfinity).arc_length;
   return {followed.target, uav.start.p, foot, epoch_};
 }
 

@@ -9,7 +9,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kBearings = 16;                                         // of directions looked at
+constexpr int kBearings = 16;                                                  // of directions looked at
 constexpr std::array<double, 5> kElevations{0.0, 0.7, -0.7, 1.5708, -1.5708};  // [rad]
 constexpr std::array<double, 7> kRadii{1.0, 1.4, 2.0, 2.8, 4.0, 5.6, 8.0};     // [spacing]
 constexpr int kRetreats = 24;        // steps of one spacing along the other's way
@@ -75,10 +75,9 @@ std::optional<WayAside> Wayside::findStraight(const Request& request, bool stric
       const bool is_vertical = std::abs(elevation) > 1.5;
       for (int bearing = 0; bearing < (is_vertical ? 1 : kBearings); ++bearing) {
         const Vector3 unit = direction(bearing, elevation);
-        const Vector3 q =
-            request.from + radius * kRoom *
-                               Vector3(spacing_.horizontal * unit.x(), spacing_.horizontal * unit.y(),
-                                       spacing_.vertical * unit.z());
+        const Vector3 q = request.from + radius * kRoom *
+                                             Vector3(spacing_.horizontal * unit.x(), spacing_.horizontal * unit.y(),
+                                                     spacing_.vertical * unit.z());
         const double distance = (request.wanted - q).norm() + (q - request.from).norm();
         if (distance >= least || !isPlace(request, q, strict)) continue;
         if (!isPassable(request.from, q, request.from, strict)) continue;

@@ -33,7 +33,7 @@ struct UavRecord {
   Vector3 deviation = Vector3::Zero();
   FlightTask task;       ///< what it is to do, as commands left it
   TrafficState traffic;  ///< towards other UAVs
-  ActiveRows active;  ///< of the last QP, at `active_epoch`
+  ActiveRows active;     ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it
