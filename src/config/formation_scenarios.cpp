@@ -8,17 +8,6 @@
 
 namespace swarm_planner {
 
-namespace {
-
-Vector3 jitter(UniformRandom& random) {
-  constexpr double kMost = 0.1;  // [m] enough to break the symmetry
-  Vector3 offset;
-  for (int axis = 0; axis < 3; ++axis) offset[axis] = random.real(-kMost, kMost);
-  return offset;
-}
-
-}  // namespace
-
 Scenario crossing() {
   constexpr double kHalfLength = 40.0, kSpeed = 3.0;  // [m], [m/s]
   const Vector3 crossing_point(0.0, 0.0, 60.0);
@@ -38,22 +27,23 @@ Scenario crossing() {
   return scenario;
 }
 
-Scenario circleSwap(int uavs, double radius, std::uint64_t seed) {
-  if (uavs < 1 || !(radius > 0.0)) throw std::invalid_argument("a circle needs at least one UAV and a radius > 0");
+Scenario circleSwap(int uavs, double radius, std::uint64_t seed, double perturbation) {
+  if (uavs < 1 || !(radius > 0.0) || !(perturbation >= 0.0)) {
+    throw std::invalid_argument("a circle needs at least one UAV, a radius > 0 and a perturbation >= 0");
+  }
   constexpr double kHeight = 10.0;  // [m] leaves room to pass above and below
   constexpr double kSpeed = 4.0;    // [m/s] below max_speed: who gave way can catch up
   Scenario scenario;
-  scenario.name = seed == 0 ? "circle_swap" : "circle_swap_" + std::to_string(seed);
+  scenario.name = seededName("circle_swap", seed);
   scenario.end = allAtGoal();
   UniformRandom random(seed);
   for (int i = 0; i < uavs; ++i) {
-    const double angle = 2.0 * kPi * i / uavs;
-    const Vector3 offset(roundedToMicro(radius * std::cos(angle)), roundedToMicro(radius * std::sin(angle)), 0.0);
+    const Vector3 offset = onCircle(radius, 2.0 * kPi * i / uavs, 0.0);
     Vector3 start = Vector3(0.0, 0.0, kHeight) + offset;
     Vector3 goal = Vector3(0.0, 0.0, kHeight) - offset;
     if (seed != 0) {
-      start += jitter(random);
-      goal += jitter(random);
+      start += randomOffset(perturbation, random);
+      goal += randomOffset(perturbation, random);
     }
     scenario.uavs.push_back(straightUav(scenario.uavs.size() + 1, start, goal, kSpeed));
   }

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 
 #include "portable_numbers.hpp"
@@ -12,6 +11,7 @@ namespace swarm_planner {
 
 namespace {
 
+constexpr const char* kName = "moving_obstacles";
 constexpr double kFieldSide = 30.0;                     ///< of the field for up to six UAVs [m]
 constexpr double kFloor = 3.0, kCeiling = 13.0;         ///< of the field [m]
 constexpr double kTargetSpeed = 3.0;                    ///< [m/s] below max_speed: who gave way can catch up
@@ -21,7 +21,6 @@ constexpr double kQuietDistance = 3.0;                  ///< around a start, at 
 constexpr double kQuietTime = 4.0;                      ///< for so long [s]
 constexpr double kFirstVisit = 4.0, kLastVisit = 14.0;  ///< when an obstacle's centre is inside the field [s]
 constexpr double kMostClimb = kPi / 12.0;               ///< of an obstacle's motion [rad]
-constexpr int kMostDraws = 10000;                       ///< before a place is taken not to exist
 
 /// Where UAVs fly and obstacles pass.
 class Field {
@@ -38,16 +37,6 @@ class Field {
  private:
   double side_;
 };
-
-/// Draws until `accept` takes what `draw` gives.
-template <class Draw, class Accept>
-auto drawn(const Draw& draw, const Accept& accept) {
-  for (int i = 0; i < kMostDraws; ++i) {
-    const auto candidate = draw();
-    if (accept(candidate)) return candidate;
-  }
-  throw std::invalid_argument("moving_obstacles: no place found for so many UAVs and obstacles");
-}
 
 bool isApart(const Vector3& point, const std::vector<Vector3>& others) {
   return std::all_of(others.begin(), others.end(),
@@ -92,20 +81,21 @@ Scenario movingObstacles(int uavs, int obstacles, std::uint64_t seed) {
   UniformRandom random(seed);
   const Field field(uavs);
   Scenario scenario;
-  scenario.name = "moving_obstacles_" + std::to_string(seed);
+  scenario.name = std::string(kName) + "_" + std::to_string(seed);
   scenario.end = allAtGoal();
   const auto point = [&] { return field.point(random); };
   std::vector<Vector3> starts, goals;
   for (int i = 0; i < uavs; ++i) {
-    starts.push_back(drawn(point, [&](const Vector3& start) { return isApart(start, starts); }));
-    goals.push_back(drawn(point, [&](const Vector3& goal) {
+    starts.push_back(drawn(kName, point, [&](const Vector3& start) { return isApart(start, starts); }));
+    goals.push_back(drawn(kName, point, [&](const Vector3& goal) {
       return isApart(goal, goals) && (goal - starts.back()).norm() >= kLeastWay;
     }));
     scenario.uavs.push_back(straightUav(starts.size(), starts.back(), goals.back(), kTargetSpeed));
   }
   for (int id = 1; id <= obstacles; ++id) {
-    scenario.obstacles.push_back(drawn([&] { return passingObstacle(id, field, random); },
-                                       [&](const ScenarioObstacle& one) { return leavesInPeace(one, starts); }));
+    scenario.obstacles.push_back(drawn(
+        kName, [&] { return passingObstacle(id, field, random); },
+        [&](const ScenarioObstacle& one) { return leavesInPeace(one, starts); }));
   }
   scenario.workspace =
       Workspace{{-kMargin, -kMargin, 0.5}, {field.side() + kMargin, field.side() + kMargin, kCeiling + kMargin}};

@@ -2,9 +2,6 @@
 #include "scenario_parts.hpp"
 
 #include <cmath>
-#include <string>
-
-#include "portable_numbers.hpp"
 
 namespace swarm_planner {
 
@@ -17,12 +14,26 @@ ScenarioUav straightUav(std::size_t number, const Vector3& start, const Vector3&
   return uav;
 }
 
-EndCondition allAtGoal() {
+EndCondition allAtGoal(double timeout) {
   EndCondition end;
   end.all_at_goal = true;
-  end.timeout = 60.0;
+  end.timeout = timeout;
   end.tolerance = 0.2;
   return end;
+}
+
+std::string seededName(const std::string& name, std::uint64_t seed) {
+  return seed == 0 ? name : name + "_" + std::to_string(seed);
+}
+
+Vector3 onCircle(double radius, double angle, double z) {
+  return Vector3(roundedToMicro(radius * std::cos(angle)), roundedToMicro(radius * std::sin(angle)), z);
+}
+
+Vector3 randomOffset(double most, UniformRandom& random) {
+  Vector3 offset;
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = random.real(-most, most);
+  return offset;
 }
 
 Vector3 velocityTowards(double speed, double heading, double climb) {

@@ -51,6 +51,12 @@ double positiveNumber(const std::string& option, const std::string& text) {
   return number;
 }
 
+double numberFromZero(const std::string& option, const std::string& text) {
+  const double number = numberFrom(text);
+  if (!(number >= 0.0)) throw OptionError(option + ": expected a number >= 0, not \"" + text + "\"");
+  return number;
+}
+
 /// A value that `parameter` takes.
 double parameterValue(const std::string& option, const std::string& text, const std::string& parameter) {
   const double number = numberFrom(text);
@@ -75,12 +81,27 @@ std::vector<std::uint64_t> seedRange(const std::string& option, const std::strin
   return seedsFrom(first, last - first + 1);
 }
 
-const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCommand::kFly},
-                                                            {"monte_carlo", ExperimentCommand::kMonteCarlo},
-                                                            {"scaling", ExperimentCommand::kScaling},
-                                                            {"circle_swap", ExperimentCommand::kCircleSwap},
-                                                            {"moving_obstacles", ExperimentCommand::kMovingObstacles},
-                                                            {"rehearse", ExperimentCommand::kRehearse}};
+struct CommandInfo {
+  ExperimentCommand command;
+  std::vector<int> uavs;  ///< unless --uavs says otherwise; empty: the scenario files say
+};
+
+const std::map<std::string, CommandInfo> kCommands = {
+    {"fly", {ExperimentCommand::kFly, {}}},
+    {"monte_carlo", {ExperimentCommand::kMonteCarlo, {6}}},
+    {"scaling", {ExperimentCommand::kScaling, {6, 16, 32, 64}}},
+    {"circle_swap", {ExperimentCommand::kCircleSwap, {10}}},
+    {"forest", {ExperimentCommand::kForest, {10}}},
+    {"small_forest", {ExperimentCommand::kSmallForest, {20}}},
+    {"gap", {ExperimentCommand::kGap, {8}}},
+    {"box_head_on", {ExperimentCommand::kBoxHeadOn, {4}}},
+    {"u_trap", {ExperimentCommand::kUTrap, {3}}},
+    {"same_goal", {ExperimentCommand::kSameGoal, {6}}},
+    {"dens", {ExperimentCommand::kDens, {16}}},
+    {"swapj", {ExperimentCommand::kSwapj, {16}}},
+    {"moving_obstacles", {ExperimentCommand::kMovingObstacles, {6}}},
+    {"rehearse", {ExperimentCommand::kRehearse, {6}}},
+};
 
 /// Options that set parameters of the simulation, whose ranges hold.
 const std::map<std::string, std::vector<const char*>> kDisturbances = {
@@ -114,6 +135,7 @@ class Parser {
   std::vector<std::string> arguments_;
   std::size_t next_ = 0;
   std::vector<std::string> seen_;
+  std::vector<int> default_uavs_;
   std::uint64_t scenarios_ = 100;
   ExperimentOptions options_;
 };
@@ -124,7 +146,8 @@ ExperimentOptions Parser::parse() {
   const std::string command = arguments_[next_++];
   const auto found = kCommands.find(command);
   if (found == kCommands.end()) throw OptionError("unknown command \"" + command + "\"");
-  options_.command = found->second;
+  options_.command = found->second.command;
+  default_uavs_ = found->second.uavs;
   while (!atEnd()) {
     const std::string argument = arguments_[next_++];
     if (isOption(argument)) {
@@ -217,8 +240,7 @@ void Parser::leaveOut(const std::string& names) {
 void Parser::readStudyOption(const std::string& option) {
   static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
   if (option == "--uavs") {
-    requireCommand(option, {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap,
-                            ExperimentCommand::kMovingObstacles, ExperimentCommand::kRehearse});
+    if (default_uavs_.empty()) throw OptionError(option + ": does not go with this command");
     for (const std::string& count : values(option)) {
       options_.uavs.push_back(static_cast<int>(wholeNumber(option, count, 1, kMostUavs)));
     }
@@ -228,6 +250,13 @@ void Parser::readStudyOption(const std::string& option) {
   } else if (option == "--radius") {
     requireCommand(option, {ExperimentCommand::kCircleSwap});
     options_.radius = positiveNumber(option, value(option));
+  } else if (option == "--perturbation") {
+    requireCommand(option, {ExperimentCommand::kCircleSwap, ExperimentCommand::kGap, ExperimentCommand::kBoxHeadOn,
+                            ExperimentCommand::kUTrap, ExperimentCommand::kSameGoal});
+    options_.perturbation = numberFromZero(option, value(option));
+  } else if (option == "--gap") {
+    requireCommand(option, {ExperimentCommand::kForest});
+    options_.gap = numberFromZero(option, value(option));
   } else if (option == "--hours") {
     requireCommand(option, {ExperimentCommand::kRehearse});
     options_.hours = positiveNumber(option, value(option));
@@ -254,13 +283,10 @@ void Parser::check() {
     return;
   }
   if (options_.seeds.empty()) options_.seeds = {0};
-  if (options_.command == ExperimentCommand::kScaling) {
-    if (options_.uavs.empty()) options_.uavs = {6, 16, 32, 64};
-    return;
-  }
+  if (options_.uavs.empty()) options_.uavs = default_uavs_;
+  if (options_.command == ExperimentCommand::kScaling) return;
   const bool monte_carlo = options_.command == ExperimentCommand::kMonteCarlo;
   if (monte_carlo && !given("--seeds")) options_.seeds = seedsFrom(options_.seeds.front(), scenarios_);
-  if (options_.uavs.empty()) options_.uavs = {options_.command == ExperimentCommand::kCircleSwap ? 10 : 6};
   if (options_.uavs.size() > 1) throw OptionError("--uavs: one number is expected here");
 }
 
@@ -280,7 +306,16 @@ commands:
   monte_carlo [--scenarios 100] [--uavs 6]
                                           random obstacles as in section 4.1 of the paper
   scaling [--uavs 6 16 32 64]             growing swarms as in section 4.2 of the paper
-  circle_swap [--uavs 10] [--radius 10]   UAVs on a circle [m] change places with their opposites
+  circle_swap [--uavs 10] [--radius 10]   UAVs on a circle [m] change places with their opposites; beyond 20 UAVs its
+                                          radius is half a metre for each if not given
+  forest [--uavs 10] [--gap 0.8]          the same across 44 m of cylinders that leave such gaps [m] at least; 0: any
+  small_forest [--uavs 20]                the same on a circle of 4 m radius with ten cylinders
+  gap [--uavs 8]                          through one opening that has room for one
+  box_head_on [--uavs 4]                  each meets the middle of the face of a box
+  u_trap [--uavs 3]                       references lead into a dead end
+  same_goal [--uavs 6]                    all are sent to one point
+  dens [--uavs 16]                        from random places to others in a room full of columns
+  swapj [--uavs 16]                       across a room to the opposite side
   moving_obstacles [--uavs 6] [--obstacles 8]
                                           UAVs cross a field among random moving obstacles
   rehearse [--hours 1] [--uavs 6]         one mission after the other, with random faults of every kind
@@ -290,6 +325,8 @@ options:
   --csv DIR            write states.csv, obstacles.csv, cycles.csv and solves.csv
   --seed S             seed of disturbances and of random scenarios (monte_carlo: of the first one)
   --seeds A:B          a run for each seed from A to B
+  --perturbation P     circle_swap, gap, box_head_on, u_trap, same_goal: seeds other than 0 move starts and goals by
+                       up to P [m] along each axis, 0.1 if not given
   --without WHAT       negative control: leave out (several: with commas, or the option again)
                          check      plans fly unchecked
                          segments   constraints hold at the samples alone, not between them

@@ -1,8 +1,12 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/experiments/experiment_runs.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/config/rehearsal.hpp"
+#include "swarm_planner/config/tight_scenarios.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -42,6 +46,45 @@ ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const P
   return {makeMission(scenario, given, scenario.name), seed, {}};
 }
 
+/// 10 m, and from 20 UAVs on as much as leaves them 3 m of it each.
+double circleRadius(int uavs) { return std::max(10.0, 0.5 * uavs); }
+
+/// The scenario of a command that makes one from a seed.
+Scenario generated(const ExperimentOptions& options, int uavs, std::uint64_t seed) {
+  const double perturbation = options.perturbation.value_or(kPerturbation);
+  switch (options.command) {
+    case ExperimentCommand::kMonteCarlo:
+      return paperMonteCarlo(uavs, seed);
+    case ExperimentCommand::kScaling:
+      return paperScaling(uavs);
+    case ExperimentCommand::kCircleSwap:
+      return circleSwap(uavs, options.radius.value_or(circleRadius(uavs)), seed, perturbation);
+    case ExperimentCommand::kForest:
+      return forest(uavs, options.gap.value_or(kForestGap), seed);
+    case ExperimentCommand::kSmallForest:
+      return smallForest(uavs, seed);
+    case ExperimentCommand::kGap:
+      return gap(uavs, perturbation, seed);
+    case ExperimentCommand::kBoxHeadOn:
+      return boxHeadOn(uavs, perturbation, seed);
+    case ExperimentCommand::kUTrap:
+      return uTrap(uavs, perturbation, seed);
+    case ExperimentCommand::kSameGoal:
+      return sameGoal(uavs, perturbation, seed);
+    case ExperimentCommand::kDens:
+      return denseRoom(uavs, seed);
+    case ExperimentCommand::kSwapj:
+      return swapInRoom(uavs, seed);
+    case ExperimentCommand::kMovingObstacles:
+      return movingObstacles(uavs, options.obstacles, seed);
+    case ExperimentCommand::kHelp:
+    case ExperimentCommand::kFly:
+    case ExperimentCommand::kRehearse:
+      break;
+  }
+  throw std::logic_error("this command makes no scenario from a seed");
+}
+
 }  // namespace
 
 ExperimentRun rehearsalRun(int uavs, double duration, std::uint64_t seed, ParameterMap given) {
@@ -54,37 +97,15 @@ ExperimentRun rehearsalRun(int uavs, double duration, std::uint64_t seed, Parame
 std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) {
   const ParameterMap given = givenParameters(options);
   std::vector<ExperimentRun> runs;
-  switch (options.command) {
-    case ExperimentCommand::kFly:
-      return flyRuns(options, given);
-    case ExperimentCommand::kMonteCarlo:
-      for (const std::uint64_t seed : options.seeds) {
-        runs.push_back(generatedRun(paperMonteCarlo(options.uavs.front(), seed), seed, given));
-      }
-      break;
-    case ExperimentCommand::kScaling:
-      for (const int uavs : options.uavs) {
-        for (const std::uint64_t seed : options.seeds) runs.push_back(generatedRun(paperScaling(uavs), seed, given));
-      }
-      break;
-    case ExperimentCommand::kCircleSwap:
-      for (const std::uint64_t seed : options.seeds) {
-        runs.push_back(generatedRun(circleSwap(options.uavs.front(), options.radius, seed), seed, given));
-      }
-      break;
-    case ExperimentCommand::kMovingObstacles:
-      for (const std::uint64_t seed : options.seeds) {
-        runs.push_back(generatedRun(movingObstacles(options.uavs.front(), options.obstacles, seed), seed, given));
-      }
-      break;
-    case ExperimentCommand::kRehearse:
-      for (const std::uint64_t seed : options.seeds) {
-        constexpr double kHour = 3600.0;  // [s]
-        runs.push_back(rehearsalRun(options.uavs.front(), kHour * options.hours, seed, given));
-      }
-      break;
-    case ExperimentCommand::kHelp:
-      break;
+  if (options.command == ExperimentCommand::kHelp) return runs;
+  if (options.command == ExperimentCommand::kFly) return flyRuns(options, given);
+  for (const int uavs : options.uavs) {
+    for (const std::uint64_t seed : options.seeds) {
+      constexpr double kHour = 3600.0;  // [s]
+      runs.push_back(options.command == ExperimentCommand::kRehearse
+                         ? rehearsalRun(uavs, kHour * options.hours, seed, given)
+                         : generatedRun(generated(options, uavs, seed), seed, given));
+    }
   }
   return runs;
 }

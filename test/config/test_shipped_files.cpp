@@ -11,6 +11,7 @@
 
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/config/parameter_io.hpp"
+#include "swarm_planner/config/tight_scenarios.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -117,7 +118,9 @@ TEST_P(GeneratedScenario, ShippedFileIsWhatTheGeneratorMakes) {
 
 INSTANTIATE_TEST_SUITE_P(Files, GeneratedScenario,
                          testing::Values(paperSix(), paperScaling(16), paperScaling(32), paperScaling(64), crossing(),
-                                         circleSwap(10, 10.0, 0)),
+                                         circleSwap(10, 10.0, 0), forest(10, kForestGap, 0), gap(8, kPerturbation, 0),
+                                         boxHeadOn(4, kPerturbation, 0), uTrap(3, kPerturbation, 0),
+                                         sameGoal(6, kPerturbation, 0)),
                          [](const auto& scenario) { return scenario.param.name; });
 
 }  // namespace

@@ -29,9 +29,13 @@ Scenario paperMonteCarlo(int uavs, std::uint64_t seed);
 /// the same time.
 Scenario crossing();
 
+/// How far the seeds of circleSwap() and its like move starts and goals along each axis, unless told otherwise [m]:
+/// enough to break the symmetry.
+constexpr double kPerturbation = 0.1;
+
 /// `uavs` UAVs evenly on a horizontal circle of `radius` [m] change places with their antipodes. Seed 0 is exactly
-/// symmetric; any other moves each start and goal by up to 0.1 m along each axis.
-Scenario circleSwap(int uavs, double radius, std::uint64_t seed);
+/// symmetric; any other moves each start and goal by up to `perturbation` [m] along each axis.
+Scenario circleSwap(int uavs, double radius, std::uint64_t seed, double perturbation = kPerturbation);
 
 /// `uavs` UAVs cross a field of 30 m x 30 m (larger for more than six: the same area for each) between 3 and 13 m of
 /// height, from random starts to random goals, 3 m apart or more, among `obstacles` superellipsoids in random motion

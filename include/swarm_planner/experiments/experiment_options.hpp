@@ -17,14 +17,32 @@ class OptionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles, kRehearse };
+enum class ExperimentCommand {
+  kHelp,
+  kFly,
+  kMonteCarlo,
+  kScaling,
+  kCircleSwap,
+  kForest,
+  kSmallForest,
+  kGap,
+  kBoxHeadOn,
+  kUTrap,
+  kSameGoal,
+  kDens,
+  kSwapj,
+  kMovingObstacles,
+  kRehearse
+};
 
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
   ExperimentCommand command = ExperimentCommand::kHelp;
   std::vector<std::string> scenario_files;  ///< fly
   std::vector<int> uavs;                    ///< the others; scaling: several
-  double radius = 10.0;                     ///< circle_swap [m]
+  std::optional<double> radius;             ///< circle_swap [m]
+  std::optional<double> perturbation;       ///< circle_swap, gap, box_head_on, u_trap, same_goal [m]
+  std::optional<double> gap;                ///< forest [m]
   int obstacles = 8;                        ///< moving_obstacles
   double hours = 1.0;                       ///< rehearse: simulated time
 
