@@ -22,11 +22,14 @@ constexpr double kMostInsistence = 32.0;  // times the patience
 constexpr int kSearchesPerCycle = 8;
 constexpr double kAsideSpeed = 0.5;  // of the most speed
 
+/// Where it is on its motion: without the noise of the measurement.
+Vector3 placeOf(const UavRecord& uav, double epoch) { return uav.motions.flown().at(epoch).p; }
+
 Vector3 endOf(const UavRecord& uav) { return uav.reference.path.at(uav.reference.path.length()).position; }
 
 }  // namespace
 
-FollowedTarget followedTarget(UavRecord& record) {
+Pursuit pursuitOf(UavRecord& record) {
   if (record.task.mode != FlightMode::kFlying) {
     return {record.task.target, record.task.on_target_path, record.task.target_progress};
   }
@@ -97,12 +100,13 @@ bool RightOfWay::watch(std::size_t i, const Reason& judged) {
   if (traffic.gives_way && isOver(uav)) traffic.leaveAside();
   traffic.courtesy = traffic.gives_way ? Courtesy::kGivesWay : Courtesy::kNone;
   traffic.partner = traffic.beneficiary;
-  const FollowedTarget followed = followedTarget(uav);
-  const bool is_there = (followed.target.at(epoch_).p - uav.start.p).norm() <= tolerance_;
-  const bool moves = (uav.start.p - traffic.anchor).norm() > kHardlyMoved * parameters_.limits.pair_distance;
+  const Pursuit pursuit = pursuitOf(uav);
+  const Vector3 place = placeOf(uav, epoch_);
+  const bool is_there = (pursuit.target.at(epoch_).p - place).norm() <= tolerance_;
+  const bool moves = (place - traffic.anchor).norm() > kHardlyMoved * parameters_.limits.pair_distance;
   if (is_there || moves || !traffic.is_anchored) {
     traffic.is_anchored = true;
-    traffic.anchor = uav.start.p;
+    traffic.anchor = place;
     traffic.anchored_since = epoch_;
   }
   if (is_there && !traffic.gives_way) traffic.since = epoch_;
@@ -130,10 +134,11 @@ RightOfWay::Rank RightOfWay::rankOf(std::size_t i) const {
 
 Way RightOfWay::wayOf(std::size_t i) const {
   UavRecord& uav = (*uavs_)[i];
-  const FollowedTarget followed = followedTarget(uav);
-  const double foot = followed.on_path ? followed.target.path.nearest(uav.start.p, followed.progress).arc_length
-                                       : followed.target.path.nearest(uav.start.p, 0.0, kInfinity).arc_length;
-  return {followed.target, uav.start.p, foot, epoch_};
+  const Pursuit pursuit = pursuitOf(uav);
+  const Vector3 place = placeOf(uav, epoch_);
+  const double foot =
+      pursuit.on_path ? pursuit.progress : pursuit.target.path.nearest(place, 0.0, kInfinity).arc_length;
+  return {pursuit.target, place, foot, epoch_};
 }
 
 bool RightOfWay::isSettled(const TrafficState& traffic) const {
@@ -155,7 +160,7 @@ void RightOfWay::findBlockers(std::size_t i, const Way& way, const NeighbourList
   for (const std::uint32_t j : neighbours.of(i)) {
     const UavRecord& other = (*uavs_)[j];
     if (other.motions.empty()) continue;
-    const Vector3 place = other.traffic.takes_part ? other.start.p : other.motions.newest().restingPlace();
+    const Vector3 place = other.traffic.takes_part ? placeOf(other, epoch_) : other.motions.newest().restingPlace();
     if (!way.isBlockedAt(place, length, kInTheWay, spacing)) continue;
     blockers_.push_back({j, (place - way.begin()).norm()});
   }
@@ -216,10 +221,11 @@ bool RightOfWay::ask(std::size_t i, std::size_t j, const NeighbourLists& neighbo
     const bool may_be_asked = k != i && third.traffic.takes_part && rank.uav != k && rank.precedes(rankOf(k));
     wayside_.addOther(third.motions.newest().restingPlace(), may_be_asked);
   }
+  const Vector3 place = placeOf(other, epoch_);
   const Way way = wayOf(i);
   const Way seniors = wayOf(rank.uav);
   Wayside::Request request;
-  request.from = other.start.p;
+  request.from = place;
   request.wanted = endOf(other);
   request.way = &way;
   request.second = rank.uav != i ? &seniors : nullptr;
@@ -236,7 +242,7 @@ bool RightOfWay::ask(std::size_t i, std::size_t j, const NeighbourLists& neighbo
   its.is_chained = mine.gives_way;
   its.asked_at = epoch_;
   const double spacing = wayside_.spacing().horizontal;
-  its.passed_at = way.arcOf(other.start.p, kWayLength * spacing) + kPast * spacing;
+  its.passed_at = way.arcOf(place, kWayLength * spacing) + kPast * spacing;
   its.aside.path.assign(aside->points.data(), aside->count);
   its.aside.start = 0.0;
   its.aside.speed = kAsideSpeed * parameters_.limits.max_speed;

@@ -279,7 +279,7 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 }
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  const auto [target, on_path, progress] = followedTarget(record);
+  const auto [target, on_path, progress] = pursuitOf(record);
   const double full_speed = parameters_.limits.max_speed;
   progress = on_path ? target.path.advance(record.start.p, progress, kPassed * full_speed * problem_.dt)
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
@@ -289,7 +289,8 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   problem_.path = &target.path;
   problem_.progress = progress;
   problem_.targets = previewTargets(target, progress, full_speed, epoch, problem_.dt);
-  lag_ = target.at(epoch).arc_length - progress;
+  const bool off_mission = record.task.mode == FlightMode::kFlying && record.traffic.gives_way;
+  lag_ = off_mission ? record.reference.at(epoch).arc_length - record.progress : target.at(epoch).arc_length - progress;
   surroundings.collect(uav, problem_);
 }
 

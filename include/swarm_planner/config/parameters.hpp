@@ -66,9 +66,9 @@ struct TimeParameters {
 struct CostParameters {
   double alpha = 0.5;             ///< horizontal deviation from the reference path
   double beta = 0.5;              ///< vertical deviation from the reference path
-  double eta = 0.1;               ///< distance of the state from the moving target's state
-  double zeta = 0.2;              ///< rate of change of the control (jerk); unset: by rule
-  double velocity_time = 1.0;     ///< makes velocity comparable to position in eta's term [s]; unset: by rule
+  double eta = 0.3;               ///< distance of the state from the moving target's state
+  double zeta = 0.05;             ///< rate of change of the control (jerk); unset: by rule
+  double velocity_time = 0.8;     ///< makes velocity comparable to position in eta's term [s]; unset: by rule
   double stop_weight = 5.0;       ///< velocity and acceleration at a plan's end, which is to be nearly at rest
   double robustness_gain = 1.0;   ///< q of (9); 0 switches the robustness function off
   double robustness_inner = 1.2;  ///< r_a of (11), 1 < r_a < r_b

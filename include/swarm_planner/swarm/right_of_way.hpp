@@ -66,12 +66,12 @@ class RightOfWay {
 };
 
 /// What a UAV follows in this cycle: its mission, the place aside where it gives way, or where its mode takes it.
-struct FollowedTarget {
+struct Pursuit {
   const MovingTarget& target;
   bool& on_path;     ///< `progress` holds
   double& progress;  ///< arc length of the foot of the last start [m]
 };
-FollowedTarget followedTarget(UavRecord& record);
+Pursuit pursuitOf(UavRecord& record);
 
 /// What the UAV does because of another one, as the reason, where it flies a new plan and nothing else is told.
 void reportTraffic(const TrafficState& traffic, UavReport& report);
