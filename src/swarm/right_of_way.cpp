@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "swarm_planner/obstacles/pair_ellipsoid.hpp"
-
 namespace swarm_planner {
 namespace {
 
@@ -146,11 +144,8 @@ bool RightOfWay::isSettled(const TrafficState& traffic) const {
 }
 
 bool RightOfWay::sharesEnd(std::size_t i, std::size_t j) const {
-  const LimitParameters& limits = parameters_.limits;
-  const Vector3 apart = endOf((*uavs_)[i]) - endOf((*uavs_)[j]);
-  const double both = 2.0 * limits.tracking_error;
-  return isSettled((*uavs_)[j].traffic) &&
-         pairGauge(apart, limits.pair_distance + both, limits.pair_distance_vertical + both) < 1.0;
+  const UavRecord& other = (*uavs_)[j];
+  return isSettled(other.traffic) && wayside_.spacing().gauge(endOf((*uavs_)[i]) - endOf(other)) < 1.0;
 }
 
 void RightOfWay::findBlockers(std::size_t i, const Way& way, const NeighbourLists& neighbours) {

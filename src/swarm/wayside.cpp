@@ -17,6 +17,7 @@ constexpr double kRoom = 1.05;       // of the spacing, from ways and UAVs
 constexpr double kStepAside = 1.1;   // of the spacing, after a retreat
 constexpr double kLineStep = 0.25;   // between points of a line that are looked at [spacing]
 constexpr double kWayLength = 40.0;  // of a way that is stayed off [spacing]
+constexpr double kRounding = 1e-6;   // [m]
 constexpr double kTwoPi = 6.283185307179586;
 // Until then a moving obstacle must not come to the place [s].
 constexpr std::array<double, 5> kLookAhead{0.0, 1.0, 2.0, 4.0, 8.0};
@@ -118,6 +119,9 @@ std::optional<WayAside> Wayside::findBack(const Request& request, bool strict) c
 
 bool Wayside::isPlace(const Request& request, const Vector3& q, bool strict) const {
   if ((q.array() < bounds_.min.array()).any() || (q.array() > bounds_.max.array()).any()) return false;
+  // Without a workspace nobody knows where the ground is.
+  const double floor = std::min(request.from.z(), request.wanted.z()) - kRounding;
+  if (!std::isfinite(bounds_.min.z()) && q.z() < floor) return false;
   const double length = kWayLength * spacing_.horizontal;
   for (const Way* way : {request.way, request.second}) {
     if (way != nullptr && way->gaugeTo(q, length, spacing_) < kRoom) return false;
