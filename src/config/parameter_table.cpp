@@ -126,6 +126,9 @@ void addLimits(TableBuilder& table) {
       "guide", [](P& p) -> bool& { return p.limits.guide; },
       "false: no ways round what blocks references are searched; for negative controls only");
   table.boolean(
+      "right_of_way", [](P& p) -> bool& { return p.limits.right_of_way; },
+      "false: no UAV gives way where several block each other; for negative controls only");
+  table.boolean(
       "latency_compensation", [](P& p) -> bool& { return p.limits.latency_compensation; },
       "false: measurements count as of the present, and plans start from them; for negative controls only");
 }

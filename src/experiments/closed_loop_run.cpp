@@ -214,7 +214,8 @@ void ClosedLoopRun::record(const CycleReport& report) {
   cycle_ms_.push_back(kSecondsToMilliseconds * report.cycle_time);
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
-    if (uav.reason != Reason::kNone && !isCommanded(uav.reason)) ++result_.fallbacks[reasonText(uav.reason)];
+    if (uav.reason != Reason::kNone && !isCommanded(uav.reason) && !isTraffic(uav.reason))
+      ++result_.fallbacks[reasonText(uav.reason)];
     if (uav.refusal != CheckReason::kAccepted) {
       ++result_.rejected_plans;
       ++result_.refusals[checkReasonText(uav.refusal)];

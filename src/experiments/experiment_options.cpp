@@ -337,6 +337,7 @@ options:
                          latency    measurements count as of the present, and plans start from them
                          guide      no ways round what blocks references are searched
                          avoidance  plans ignore obstacles and other UAVs
+                         right_of_way  no UAV gives way where several block each other
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

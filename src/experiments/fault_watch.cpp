@@ -27,6 +27,9 @@ bool tellsOfFault(Reason reason) {
     case Reason::kUnsafeRest:
     case Reason::kNoSafePlan:
     case Reason::kOverrun:
+    case Reason::kGivesWay:
+    case Reason::kWaits:
+    case Reason::kParked:
       return false;
     default:
       return true;

@@ -7,7 +7,8 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kAsGood = 1.2;  // a plane that loses less of the distance is not replaced by the one at the nearest point
+constexpr double kAsGood =
+    1.2;  // a plane that loses less of the distance is not replaced by the one at the nearest point
 
 }  // namespace
 

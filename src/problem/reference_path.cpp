@@ -2,6 +2,7 @@
 #include "swarm_planner/problem/reference_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -33,14 +34,8 @@ void ReferencePath::assign(const Vector3* points, std::size_t count) {
 }
 
 void ReferencePath::assignLine(const Vector3& begin, const Vector3& end) {
-  points_.assign(1, begin);
-  arc_lengths_.assign(1, 0.0);
-  tangents_.clear();
-  const double step = (end - begin).norm();
-  if (step < kShortestSegment) return;
-  tangents_.push_back((end - begin) / step);
-  arc_lengths_.push_back(step);
-  points_.push_back(end);
+  const std::array<Vector3, 2> points{begin, end};
+  assign(points.data(), points.size());
 }
 
 std::size_t ReferencePath::segmentAt(double arc_length) const {

@@ -48,6 +48,9 @@ std::string describeReason(const SwarmPlanner& planner, std::size_t uav, const s
     std::snprintf(distance.data(), distance.size(), "%.1f m ", planner.report().uavs[uav].deviation);
     return distance.data() + std::string(reasonText(reason));
   }
+  if (isTraffic(reason)) {
+    return std::string(reasonText(reason)) + " " + planner.uavName(planner.report().uavs[uav].partner);
+  }
   return explainReason(reason, planner.report().uavs[uav].refusal);
 }
 
@@ -74,7 +77,7 @@ void toMessage(const SwarmPlanner& planner, const CycleContext& context, const s
     to.state = static_cast<std::uint8_t>(from.state);
     to.reason = reasons[uav];
     to.alarm = isAlarm(from.reason);
-    to.commanded = isCommanded(from.reason);
+    to.commanded = isCommanded(from.reason) || isTraffic(from.reason);
     to.refusal = from.refusal == CheckReason::kAccepted ? "" : checkReasonText(from.refusal);
     to.planned = from.planned;
     to.solve_time = from.solve_time;

@@ -56,6 +56,7 @@ void ProgressWatch::observe(double t, const std::vector<Vector3>& positions, con
   time_ = t;
   positions_ = positions;
   velocities_ = velocities;
+  arrived_.clear();
   remember();
 }
 
@@ -75,7 +76,23 @@ bool ProgressWatch::stuck(std::size_t uav) const {
          (positions_[uav] - past.positions[uav]).norm() < kStuckMove;
 }
 
-bool ProgressWatch::arrived(std::size_t uav) const { return atEnd(uav) || parked(uav); }
+bool ProgressWatch::arrived(std::size_t uav) const {
+  if (arrived_.empty()) findArrived();
+  return arrived_[uav];
+}
+
+void ProgressWatch::findArrived() const {
+  arrived_.resize(positions_.size());
+  for (std::size_t i = 0; i < positions_.size(); ++i) arrived_[i] = atEnd(i) || parked(i);
+  // From the inside out.
+  for (bool more = true; more;) {
+    more = false;
+    for (std::size_t i = 0; i < positions_.size(); ++i) {
+      if (arrived_[i] || !parkedBehind(i)) continue;
+      arrived_[i] = more = true;
+    }
+  }
+}
 
 bool ProgressWatch::allAtGoal() const {
   for (std::size_t i = 0; i < references_.size(); ++i) {
@@ -117,6 +134,21 @@ bool ProgressWatch::parked(std::size_t uav) const {
     if (occupies) return true;
   }
   return false;
+}
+
+bool ProgressWatch::parkedBehind(std::size_t uav) const {
+  if (velocities_[uav].norm() > kParkedSpeed) return false;
+  const auto gauge = [this](const Vector3& d, double margin) {
+    return pairGauge(d, pair_distance_ + margin, pair_distance_vertical_ + margin);
+  };
+  const double own = gauge(positions_[uav] - end(uav), 0.0);
+  int beside = 0;
+  for (std::size_t other = 0; other < positions_.size(); ++other) {
+    if (other == uav || !arrived_[other] || gauge(end(other) - end(uav), 0.0) >= 1.0) continue;
+    const bool is_nearer = gauge(positions_[other] - end(uav), 0.0) < own;
+    beside += is_nearer && gauge(positions_[other] - positions_[uav], parking_margin_) <= 1.0 ? 1 : 0;
+  }
+  return beside >= 2;
 }
 
 }  // namespace swarm_planner

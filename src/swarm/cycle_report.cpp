@@ -21,6 +21,10 @@ bool isCommanded(Reason reason) {
   }
 }
 
+bool isTraffic(Reason reason) {
+  return reason == Reason::kGivesWay || reason == Reason::kWaits || reason == Reason::kParked;
+}
+
 bool isAlarm(Reason reason) { return reason == Reason::kNoSafePlan; }
 
 const char* reasonText(Reason reason) {
@@ -83,7 +87,7 @@ const char* reasonText(Reason reason) {
       return "in flight when the planner started; its last trajectory goes on until all inputs are known";
     case Reason::kNotFollowing:
       return "does not follow its setpoints; planned from where it is";
-    case Reason::kGivesWay:
+    case Reason::kGivesWayToObstacle:
       return "gives way: an obstacle will come to where it could rest";
     case Reason::kEvadesUnseen:
       return "without odometry, and its motion is not clear any more; flies a new one from where it should be";
@@ -91,6 +95,12 @@ const char* reasonText(Reason reason) {
       return "its way is blocked and no way round is found; waits and looks again";
     case Reason::kEndNotClear:
       return "the end of its way is not clear; waits as near as is safe";
+    case Reason::kGivesWay:
+      return "gives way to";
+    case Reason::kWaits:
+      return "waits behind";
+    case Reason::kParked:
+      return "parked beside its end, which is taken by";
   }
   return "unknown reason";
 }

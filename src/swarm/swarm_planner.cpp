@@ -12,6 +12,7 @@
 #include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/guide_desk.hpp"
 #include "swarm_planner/swarm/reference_rules.hpp"
+#include "swarm_planner/swarm/right_of_way.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -43,6 +44,7 @@ class SwarmPlanner::Impl {
         takeover(homesOf(mission.scenario)),
         director(mission, parameters),
         guides(parameters, mission.scenario.workspace, uavs.size(), maxTracks(mission)),
+        right_of_way(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
         judged(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -236,6 +238,7 @@ class SwarmPlanner::Impl {
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
+    right_of_way.direct(epoch, tracks.tracks(), judged, surroundings.neighbours(), uavs);
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
@@ -329,6 +332,7 @@ class SwarmPlanner::Impl {
   bool planning = false;  ///< the first plans have been made
   FlightDirector director;
   GuideDesk guides;
+  RightOfWay right_of_way;
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team

@@ -10,6 +10,7 @@
 #include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/place_beside.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/right_of_way.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 
@@ -280,7 +281,7 @@ Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, co
   const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
   if (kept.accepted()) return Reason::kPlanRefused;
   if (kept.reason == CheckReason::kRestingPlace && giveWay(kept, uav, epoch, record, surroundings, report)) {
-    return Reason::kGivesWay;
+    return Reason::kGivesWayToObstacle;
   }
   return brake(kept, uav, epoch, record, surroundings);
 }
@@ -359,7 +360,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
-  const bool gives_way = report.reason == Reason::kGivesWay;
+  const bool gives_way = report.reason == Reason::kGivesWayToObstacle;
   if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
   if (on_new_plan && record.following.isNotFollowing()) report.reason = Reason::kNotFollowing;
   if (on_new_plan && record.off_plan) {
@@ -369,6 +370,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
   if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
+  reportTraffic(record.traffic, report);
   reportTask(record.task, report);
 }
 
@@ -396,7 +398,8 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   problem_.path = &target.path;
   problem_.progress = progress;
   problem_.targets = previewTargets(target, progress, full_speed, epoch, problem_.dt);
-  lag_ = target.at(epoch).arc_length - progress;
+  const bool off_mission = record.task.mode == FlightMode::kFlying && (on_detour_ || record.traffic.gives_way);
+  lag_ = off_mission ? record.reference.at(epoch).arc_length - record.progress : target.at(epoch).arc_length - progress;
   if (!on_detour_) record.guide.setFollowed(target);
   problem_.is_guided = !on_detour_ && record.guide.active();
   if (problem_.is_guided) record.guide.pose(target, progress, problem_);

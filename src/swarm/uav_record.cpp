@@ -23,8 +23,12 @@ double leastDistanceOff(const Parameters& parameters) {
 }  // namespace
 
 FollowedTarget followedTarget(UavRecord& record) {
-  if (record.task.mode == FlightMode::kFlying) return {record.reference, record.on_reference, record.progress};
-  return {record.task.target, record.task.on_target_path, record.task.target_progress};
+  if (record.task.mode != FlightMode::kFlying) {
+    return {record.task.target, record.task.on_target_path, record.task.target_progress};
+  }
+  TrafficState& traffic = record.traffic;
+  if (traffic.gives_way) return {traffic.aside, traffic.on_aside_path, traffic.aside_progress};
+  return {record.reference, record.on_reference, record.progress};
 }
 
 void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length, double speed) {
@@ -37,6 +41,7 @@ void UavRecord::setReference(const std::vector<Vector3>& path, double arc_length
   reference_pending = true;
   on_reference = false;
   guide.forget();
+  traffic.forget(traffic.since);
 }
 
 void UavRecord::reset() {
@@ -48,6 +53,7 @@ void UavRecord::reset() {
   reference.start = given_start;
   reference_pending = true;
   on_reference = false;
+  traffic = TrafficState();
   active.count = 0;
   guide.forget();
   monitor = OdometryMonitor();

@@ -17,15 +17,15 @@ Parameters resolved(const ParameterMap& given, const std::map<std::string, doubl
   return parameters;
 }
 
-TEST(ParameterRules, DefaultsAreThePapers) {
+TEST(ParameterRules, DefaultsAreThoseOfTheDocumentedRules) {
   const Parameters parameters = resolved({});
   EXPECT_DOUBLE_EQ(parameters.time.sampling_time, 0.3);
   EXPECT_DOUBLE_EQ(parameters.time.cycle_period, 0.3);
   EXPECT_DOUBLE_EQ(parameters.cost.alpha, 0.5);
   EXPECT_DOUBLE_EQ(parameters.cost.beta, 0.5);
-  EXPECT_DOUBLE_EQ(parameters.cost.eta, 0.1);
-  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.2);
-  EXPECT_DOUBLE_EQ(parameters.cost.velocity_time, 1.0);
+  EXPECT_DOUBLE_EQ(parameters.cost.eta, 0.3);
+  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.05);
+  EXPECT_DOUBLE_EQ(parameters.cost.velocity_time, 0.8);
   EXPECT_DOUBLE_EQ(parameters.limits.max_speed, 5.0);
   EXPECT_DOUBLE_EQ(parameters.limits.pair_distance_vertical, 2.0);
   EXPECT_DOUBLE_EQ(parameters.limits.tracking_margin, 0.06);
@@ -47,8 +47,8 @@ TEST(ParameterRules, SamplingTimeIsDistanceOverSpeedInTwentiethsOfASecond) {
 TEST(ParameterRules, CycleAndWeightsFollowTheSamplingTime) {
   const Parameters parameters = resolved({}, {{"sampling_time", 0.15}});
   EXPECT_DOUBLE_EQ(parameters.time.cycle_period, 0.15);
-  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.2 / 64.0);
-  EXPECT_DOUBLE_EQ(parameters.cost.velocity_time, 0.5);
+  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.05 / 64.0);
+  EXPECT_DOUBLE_EQ(parameters.cost.velocity_time, 0.4);
 }
 
 TEST(ParameterRules, MarginIsATenthOfTheSmallerDistanceWithinBounds) {

@@ -260,6 +260,20 @@ TEST(RunMonitor, ParkedAroundAnOccupiedEndHasArrived) {
   EXPECT_EQ(arrived(standing(Vector3(9.0, 0.0, 0.0)), standing(Vector3(7.0, 0.0, 0.0))), 0);  // the end is free
 }
 
+// More are sent to one place than fit around it.
+TEST(RunMonitor, ParkedBehindTwoThatHaveArrivedHasArrived) {
+  const std::vector<Vector3> reference = {Vector3::Zero(), Vector3(10.0, 0.0, 0.0)};
+  const Mission mission = untilAllAtGoal(25.0, 0.2, std::vector<ScenarioUav>(4, uavOn(reference, 0.0, 3.0)));
+  const auto arrived = [&](const Vector3& last) {
+    return watch(mission, {standing(Vector3(10.0, 0.0, 0.0)), standing(Vector3(8.2, 1.1, 0.0)),
+                           standing(Vector3(8.2, -1.1, 0.0)), standing(last)})
+        .arrived_uavs;
+  };
+  EXPECT_EQ(arrived(Vector3(6.4, 0.0, 0.0)), 4);
+  EXPECT_EQ(arrived(Vector3(6.1, 1.1, 0.0)), 3);  // it touches one of them alone: there is room nearer to the end
+  EXPECT_EQ(arrived(Vector3(5.0, 0.0, 0.0)), 3);
+}
+
 TEST(RunMonitor, ARunTowardsAPlaneEndsWithTheLastTarget) {
   Mission mission = lasting(1.0, {uavOn(kAlongX, 20.0, 3.0), uavOn(kAlongX, 10.0, 4.0)});
   mission.scenario.end = EndCondition{};

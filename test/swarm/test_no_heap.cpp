@@ -17,6 +17,7 @@
 #include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
+#include "tight_places.hpp"
 
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SWARM_PLANNER_COUNTS_ALLOCATIONS 1
@@ -184,6 +185,8 @@ TEST_F(NoHeap, CarryingOutCommandsAllocatesNothing) {
   };
   EXPECT_EQ(heapCallsOfFlight(makeMission(circleSwap(12, 8.0, 1), {}, "circle_swap"), 300, nullptr, command), 0);
 }
+
+TEST_F(NoHeap, GivingWayAllocatesNothing) { EXPECT_EQ(heapCallsOfFlight(throughTheOpening(6), 150), 0); }
 
 TEST_F(NoHeap, LandingInACrowdAllocatesNothing) {
   const auto command = [](int cycle, SwarmPlanner& planner) {

@@ -48,6 +48,7 @@ struct LimitParameters {
   bool plan_check = true;            ///< plans are checked before they fly
   bool segment_constraints = true;   ///< constraints hold between the samples; false: at the samples alone
   bool guide = true;                 ///< ways round what blocks references are searched
+  bool right_of_way = true;          ///< UAVs give way to each other where none gets on
   bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
 };
 
@@ -67,9 +68,9 @@ struct TimeParameters {
 struct CostParameters {
   double alpha = 0.5;             ///< horizontal deviation from the reference path
   double beta = 0.5;              ///< vertical deviation from the reference path
-  double eta = 0.1;               ///< distance of the state from the moving target's state
-  double zeta = 0.2;              ///< rate of change of the control (jerk); unset: by rule
-  double velocity_time = 1.0;     ///< makes velocity comparable to position in eta's term [s]; unset: by rule
+  double eta = 0.3;               ///< distance of the state from the moving target's state
+  double zeta = 0.05;             ///< rate of change of the control (jerk); unset: by rule
+  double velocity_time = 0.8;     ///< makes velocity comparable to position in eta's term [s]; unset: by rule
   double stop_weight = 5.0;       ///< velocity and acceleration at a plan's end, which is to be nearly at rest
   double robustness_gain = 1.0;   ///< q of (9); 0 switches the robustness function off
   double robustness_inner = 1.2;  ///< r_a of (11), 1 < r_a < r_b

@@ -22,6 +22,7 @@ constexpr std::array<NegativeControl, 5> kNegativeControls{{
     {"latency", "latency_compensation", &LimitParameters::latency_compensation},
     {"guide", "guide", &LimitParameters::guide},
     {"avoidance", "avoidance", &LimitParameters::avoidance},
+    {"right_of_way", "right_of_way", &LimitParameters::right_of_way},
 }};
 
 /// The names of what is left out.

@@ -29,6 +29,9 @@ class ReferencePath {
   /// Becomes the line from `begin` to `end` [m], a single point if they coincide. Takes no heap if this path has been
   /// made of two different points or more before.
   void assignLine(const Vector3& begin, const Vector3& end);
+  /// Becomes the polyline through `count` >= 1 points [m]. Takes no heap if this path has been made of as many
+  /// different points before.
+  void assign(const Vector3* points, std::size_t count);
 
   double length() const { return arc_lengths_.empty() ? 0.0 : arc_lengths_.back(); }
   /// The point at `arc_length` [m], clamped to the path. At a corner the tangent is that of the segment to come.
@@ -59,8 +62,6 @@ class ReferencePath {
 
   /// Room for `points` points: assign() takes no heap up to so many.
   void reserve(std::size_t points);
-  /// Becomes the polyline through `count` >= 1 points.
-  void assign(const Vector3* points, std::size_t count);
 
  private:
   /// Cosine of the turn from which a corner is sharp: a little more than a right angle.

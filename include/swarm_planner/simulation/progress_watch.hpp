@@ -42,7 +42,8 @@ class ProgressWatch {
   bool stuck(std::size_t uav) const;
 
   /// Within the tolerance of its reference's end, or parked: almost at rest at the allowed distance around its end,
-  /// where another UAV that has reached its own end leaves no room.
+  /// where another UAV that has reached its own end leaves no room; or, where that place is taken as well, at the
+  /// allowed distance from two that have arrived nearer to its end, at ends that exclude its own.
   bool arrived(std::size_t uav) const;
 
   /// Every UAV is within the tolerance of its reference's end.
@@ -61,6 +62,8 @@ class ProgressWatch {
   void remember();
   bool atEnd(std::size_t uav) const;
   bool parked(std::size_t uav) const;
+  bool parkedBehind(std::size_t uav) const;
+  void findArrived() const;
 
   EndCondition end_;
   double pair_distance_;           ///< horizontal semi-axis of the pair ellipsoid [m]
@@ -72,7 +75,8 @@ class ProgressWatch {
   std::vector<TargetState> targets_;
   std::vector<Vector3> positions_;
   std::vector<Vector3> velocities_;
-  std::deque<Past> past_;  ///< of the last 20 s, sparse
+  std::deque<Past> past_;              ///< of the last 20 s, sparse
+  mutable std::vector<bool> arrived_;  ///< at the last instant; empty: not found out yet
 };
 
 }  // namespace swarm_planner

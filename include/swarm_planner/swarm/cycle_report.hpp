@@ -48,17 +48,22 @@ enum class Reason : std::uint8_t {
   kDescending,
   kLanded,
   kStopped,
-  kTakingOver,   ///< in flight at the planner's start: what it flies goes on until inputs are known
-  kNotFollowing,  ///< the vehicle does not do what it is told; planned for from where it is
-  kGivesWay,      ///< an obstacle will come to where it could rest: goes to a place beside its way
-  kEvadesUnseen,  ///< without odometry: a new motion, because the one before was not clear any more
-  kNoWayRound,   ///< something is in the way of what the UAV follows, and no way round it is found
-  kEndNotClear,  ///< the end of what it follows is inside something: it waits as near as is safe
+  kTakingOver,          ///< in flight at the planner's start: what it flies goes on until inputs are known
+  kNotFollowing,        ///< the vehicle does not do what it is told; planned for from where it is
+  kGivesWayToObstacle,  ///< an obstacle will come to where it could rest: goes to a place beside its way
+  kEvadesUnseen,        ///< without odometry: a new motion, because the one before was not clear any more
+  kNoWayRound,          ///< something is in the way of what the UAV follows, and no way round it is found
+  kEndNotClear,         ///< the end of what it follows is inside something: it waits as near as is safe
+  kGivesWay,            ///< traffic, as are those that follow, with the other one in UavReport::partner: it stays aside
+  kWaits,               ///< the other stands in its way
+  kParked               ///< beside its end, which the other occupies
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);
 /// Whether it tells of a command that is carried out, not of trouble.
 bool isCommanded(Reason reason);
+/// Whether it tells what the UAV does because of another one, and nothing is amiss.
+bool isTraffic(Reason reason);
 /// In words, for operators. A string literal.
 const char* reasonText(Reason reason);
 /// The same, with why the check refused the solver's plan where that is what led there.
@@ -69,6 +74,7 @@ const char* stateText(UavState state);
 struct UavReport {
   UavState state = UavState::kHolding;
   Reason reason = Reason::kWaitingForOdometry;
+  std::size_t partner = 0;  ///< index of the other UAV that a reason of traffic tells of
   bool planned = false;     ///< a motion stands and may be published
   double solve_time = 0.0;  ///< [s] of wall clock
   int sqp_iterations = 0;

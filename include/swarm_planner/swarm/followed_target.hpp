@@ -8,7 +8,8 @@ namespace swarm_planner {
 
 struct UavRecord;
 
-/// What a UAV follows in this cycle: its mission, or where its mode takes it.
+/// What a UAV follows in this cycle: its mission, the place aside where it gives way, or where its mode
+/// takes it.
 struct FollowedTarget {
   const MovingTarget& target;
   bool& on_path;     ///< `progress` holds

@@ -16,6 +16,7 @@
 #include "swarm_planner/swarm/odometry_monitor.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/takeover.hpp"
+#include "swarm_planner/swarm/traffic_state.hpp"
 
 namespace swarm_planner {
 
@@ -33,9 +34,10 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  FlightTask task;     ///< what it is to do, as commands left it
-  GuidedFlight guide;  ///< round what blocks what it follows
-  ActiveRows active;   ///< of the last QP, at `active_epoch`
+  FlightTask task;       ///< what it is to do, as commands left it
+  TrafficState traffic;  ///< towards other UAVs
+  GuidedFlight guide;    ///< round what blocks what it follows
+  ActiveRows active;     ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it
