@@ -183,10 +183,8 @@ def comparison(experiment, runs, control_runs):
         demands.append(Demand("path", lambda _: ratio("path_length_m"), WORSE_BY))
         demands.append(Demand("time", lambda _: ratio("mission_time_s"), WORSE_BY))
     judged = [demand.judge(runs) for demand in demands]
-    line = f"{experiment.name}, {len(pairs)} of {len(runs)} flights arrive in both: " + ", ".join(
-        words for _, words in judged
-    )
-    return all(met for met, _ in judged), line
+    what = f"{experiment.name}, in {len(pairs)} of {len(runs)} flights all arrive in the control: "
+    return all(met for met, _ in judged), what + ", ".join(words for _, words in judged)
 
 
 def selected(options, parser):

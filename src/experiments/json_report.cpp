@@ -2,6 +2,7 @@
 #include "swarm_planner/experiments/json_report.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "swarm_planner/experiments/collision_partner.hpp"
 #include "swarm_planner/experiments/fault_report.hpp"
@@ -45,15 +46,19 @@ std::vector<JsonObject> flights(const Scenario& scenario, const RunResult& run) 
   std::vector<JsonObject> list;
   for (std::size_t i = 0; i < run.flown.flights.size(); ++i) {
     const UavFlight& flight = run.flown.flights[i];
-    const FlightBound bound = i < run.bounds.size() ? run.bounds[i] : FlightBound();
+    std::optional<double> least_time, shortest_path;
+    if (i < run.bounds.size()) {
+      least_time = run.bounds[i].least_time;
+      shortest_path = run.bounds[i].shortest_path;
+    }
     list.emplace_back();
     list.back()
         .add("uav", scenario.uavs[i].name)
         .add("arrival_time_s", flight.arrival_time)
-        .add("least_time_s", bound.least_time)
+        .add("least_time_s", least_time)
         .add("path_length_m", flight.path_length)
         .add("remaining_m", flight.remaining)
-        .add("shortest_path_m", bound.shortest_path)
+        .add("shortest_path_m", shortest_path)
         .addFlag("stuck", flight.stuck)
         .add("lag_m", flight.lag)
         .add("behind_target_m", flight.behind_target)

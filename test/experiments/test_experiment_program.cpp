@@ -113,6 +113,7 @@ TEST_F(ExperimentProgramTest, RehearsesForAsLongAsItIsTold) {
   EXPECT_GE(json["rehearsal"]["goals_reached"].as<int>(), 6);
   EXPECT_GT(json["rehearsal"]["resident_mb"]["end"].as<double>(), 1.0);
   EXPECT_GE(json["faults"].size(), 5u);
+  EXPECT_TRUE(json["flights"][0]["least_time_s"].IsNull()) << "its reference is not what it flies";
 }
 
 TEST_F(ExperimentProgramTest, TheCsvFilesBearTheReportOut) {
