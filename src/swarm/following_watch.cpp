@@ -59,7 +59,7 @@ void FollowingWatch::note(const UavMeasurement& given, const Vector3& drift, con
   is_off_ = deviation && deviation->size > 1.0;
   if (is_off_) {
     const bool same_side = was_off && deviation->direction.dot(direction_) > 0.0;
-    if (same_side || isNotFollowing()) {
+    if ((same_side && stamp_ > settled_) || isNotFollowing()) {
       finding_ = Finding::kDoesNotFollow;
     } else {
       finding_ = Finding::kSuspected;

@@ -17,6 +17,7 @@ constexpr double kDistinct = 0.1;  // after their epoch, new plans differ from t
 constexpr double kMoved = 0.5;     // a UAV so far from a motion does not fly it [m]
 constexpr double kMovedSpeed = 1.5;  // nor one whose velocity differs so much [m/s]
 constexpr double kFootWindow = 5.0;  // of arc length to look for the foot in, beyond what can have been flown [m]
+constexpr double kSettlingTimes = 2.0;  // tracking_time, from the first plan on, until a vehicle may be on it
 
 /// The parabola through the velocities of three measurements: acceleration and jerk at the last one.
 struct Parabola {
@@ -129,6 +130,7 @@ void begin(const UavMeasurement& measurement, double epoch, const Parameters& pa
     assumeBraking(*observed, epoch, parameters, record.motions);
     record.planned = true;
   }
+  record.following.settleUntil(epoch + kSettlingTimes * parameters.input.tracking_time);
   record.predictStart(measurement, epoch, parameters, bounds);
   resumeMission(epoch, parameters, observed != nullptr, record);
 }
