@@ -18,6 +18,7 @@ constexpr int kRings = 32;             // around an end that is not clear
 constexpr double kBeyond = 0.5;        // of the blocked stretch, by which a goal lies beyond it
 constexpr double kMargin = 2.0;        // of the region about start and goal, in their distance and what blocks
 constexpr int kMostAttempts = 5;
+constexpr double kRepairComfort = 2.0;
 constexpr double kMissing = 1e6;  // urgency of a UAV without a guide that is clear
 
 Box grown(Box box, double by) {
@@ -168,7 +169,8 @@ bool GuidePlanner::isClearStill(const GuideRequest& request, const GuidePath& re
 
 bool GuidePlanner::repair(const GuideRequest& request, GuideAnswer& answer) {
   const Pace pace{0.0, request.speed};
-  space_.setComfort(settings_.comfort);
+  // Points go farther out than the pieces between them have to stay.
+  space_.setComfort(kRepairComfort * settings_.comfort);
   GuidePath path = restOf(answer.path, request.start);
   double way = 0.0;
   for (std::size_t i = 1; i < path.count; ++i) {
@@ -180,7 +182,9 @@ bool GuidePlanner::repair(const GuideRequest& request, GuideAnswer& answer) {
     if (is_on_reference || !place) return false;
     path.points[i] = *place;
   }
+  space_.setComfort(0.0);
   if (!isClearStill(request, path, answer)) return false;
+  space_.setComfort(settings_.comfort);
   traffic_.clear(1.0);
   tighten(path, pace, space_, traffic_);
   answer.path = path;
