@@ -18,6 +18,7 @@ constexpr int kRings = 32;             // around an end that is not clear
 constexpr double kBeyond = 0.5;        // of the blocked stretch, by which a goal lies beyond it
 constexpr double kMargin = 2.0;        // of the region about start and goal, in their distance and what blocks
 constexpr int kMostAttempts = 5;
+constexpr double kRepairComfort = 2.0;
 constexpr double kMissing = 1e6;  // urgency of a UAV without a guide that is clear
 
 Box grown(Box box, double by) {
@@ -136,7 +137,9 @@ void GuidePlanner::assess(const GuideScene& scene, const GuideRequest& request, 
   }
   blockages_[uav] = *blockage;
   ++ages_[uav];
-  if (has_guide && isClearStill(request, answer)) {
+  space_.setComfort(-settings_.slack);
+  const bool is_clear = has_guide && isClearStill(request, restOf(answer.path, request.start), answer);
+  if (is_clear || (has_guide && repair(request, answer))) {
     if (ages_[uav] >= kRenewal) wants_.push_back({uav, static_cast<double>(waits_[uav]), true});
     return;
   }
@@ -145,9 +148,7 @@ void GuidePlanner::assess(const GuideScene& scene, const GuideRequest& request, 
   wants_.push_back({uav, kMissing + waits_[uav] - blockage->begin / request.speed, false});
 }
 
-bool GuidePlanner::isClearStill(const GuideRequest& request, const GuideAnswer& answer) {
-  space_.setComfort(-settings_.slack);
-  const GuidePath rest = restOf(answer.path, request.start);
+bool GuidePlanner::isClearStill(const GuideRequest& request, const GuidePath& rest, const GuideAnswer& answer) const {
   const Pace pace{0.0, request.speed};
   if (!isClear(rest, pace, space_)) return false;
   if (!answer.rejoins) return true;
@@ -163,6 +164,32 @@ bool GuidePlanner::isClearStill(const GuideRequest& request, const GuideAnswer& 
     if (!space_.isClear(from, to)) return false;
     from = to;
   }
+  return true;
+}
+
+bool GuidePlanner::repair(const GuideRequest& request, GuideAnswer& answer) {
+  const Pace pace{0.0, request.speed};
+  // Points go farther out than the pieces between them have to stay.
+  space_.setComfort(kRepairComfort * settings_.comfort);
+  GuidePath path = restOf(answer.path, request.start);
+  double way = 0.0;
+  for (std::size_t i = 1; i < path.count; ++i) {
+    way += (path.points[i] - path.points[i - 1]).norm();
+    const TimedPoint point = pace.after(path.points[i], way);
+    if (space_.clearance(point) >= 0.0) continue;
+    const bool is_on_reference = answer.rejoins && i + 1 == path.count;
+    const std::optional<Vector3> place = nearestClear(point, point.p, settings_.comfort);
+    if (is_on_reference || !place) return false;
+    path.points[i] = *place;
+  }
+  space_.setComfort(0.0);
+  if (!isClearStill(request, path, answer)) return false;
+  space_.setComfort(settings_.comfort);
+  traffic_.clear(1.0);
+  tighten(path, pace, space_, traffic_);
+  answer.path = path;
+  answer.branch = request.path.begin;
+  ++answer.number;
   return true;
 }
 
@@ -258,6 +285,7 @@ void GuidePlanner::take(const GuideRequest& request, const Want& want, const Goa
   }
   answer.state = GuideState::kGuided;
   ++answer.number;
+  ++answer.course;
   answer.path = found_;
   answer.branch = request.path.begin;
   answer.rejoin = rejoin;

@@ -7,8 +7,16 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kAsGood =
-    1.2;  // a plane that loses less of the distance is not replaced by the one at the nearest point
+// A plane that loses less of the distance is not replaced by the one at the nearest point.
+constexpr double kAsGood = 1.2;
+// Smaller ones make round bodies.
+constexpr double kLeastEdgeExponent = 3.0;
+
+/// Whether the body has edges, and not only rims as a cylinder has: at least two exponents are large.
+bool hasEdges(const Superellipsoid& body) {
+  const Vector3& p = body.exponents();
+  return p.sum() - p.minCoeff() - p.maxCoeff() > kLeastEdgeExponent;
+}
 
 }  // namespace
 
@@ -65,8 +73,8 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
   const Gauge gauge = obstacle_->gauge(r, level_);
   const double steepness = gauge.gradient.norm();
   // The distance to the surface lies between that to the plane and that along the line to the centre.
-  const bool is_outside = precise_ && gauge.value > 1.0;
-  if (is_outside && r.norm() * (1.0 - 1.0 / gauge.value) > kAsGood * (gauge.value - 1.0) / steepness) {
+  const bool asks_more = precise_ && gauge.value > 1.0 && hasEdges(*obstacle_);
+  if (asks_more && r.norm() * (1.0 - 1.0 / gauge.value) > kAsGood * (gauge.value - 1.0) / steepness) {
     Vector3 normal;
     const double distance = obstacle_->signedDistance(obstacle_->center() + r, normal);
     return {normal, normal.dot(r) - distance + distance_};

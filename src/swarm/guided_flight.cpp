@@ -58,6 +58,7 @@ void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {
     return;
   }
   if (active_ && answer.number == number_) return;
+  const bool is_other_way = !active_ || answer.course != course_;
   std::array<Vector3, kMostPoints> points;
   std::size_t count = answer.path.count;
   std::copy(answer.path.points.begin(), answer.path.points.begin() + static_cast<std::ptrdiff_t>(count),
@@ -76,7 +77,10 @@ void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {
   rejoins_ = answer.rejoins;
   number_ = answer.number;
   progress_ = 0.0;
-  active_ = is_new_ = needs_fresh_start_ = true;
+  course_ = answer.course;
+  active_ = is_new_ = true;
+  if (!is_other_way) return;
+  needs_fresh_start_ = true;
   held_up_ = 0;
 }
 

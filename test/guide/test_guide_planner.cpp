@@ -82,7 +82,7 @@ TEST(GuidePlanner, DoesNotChangeSidesForALittleGain) {
   int changes = 0;
   double side = 0.0;
   for (int i = 0; i < 60; ++i) {
-    rounds.scene.bodies = {bodyOf(Vector3(15, random.uniform(-0.3, 0.3), 10), Vector3(3, 5, 30), 10.0)};
+    rounds.scene.bodies = {bodyOf(Vector3(15, random.uniform(-0.1, 0.1), 10), Vector3(3, 5, 30), 10.0)};
     followAlongX(rounds, Vector3(0.05 * i, 0, 10));
     const GuideAnswer& answer = rounds.round();
     ASSERT_EQ(answer.state, GuideState::kGuided);
@@ -91,6 +91,22 @@ TEST(GuidePlanner, DoesNotChangeSidesForALittleGain) {
     side = y;
   }
   EXPECT_EQ(changes, 0);
+}
+
+// One that creeps into the guide: the guide gives way to it on the same side.
+TEST(GuidePlanner, GivesWayOnTheSameSideToWhatMovesIntoIt) {
+  GuideRounds rounds;
+  rounds.scene.bodies.push_back(bodyOf(Vector3(15, 1, 10), Vector3(3, 5, 30), 10.0));
+  followAlongX(rounds, Vector3(0, 0, 10));
+  const std::uint32_t course = rounds.round().course;
+  const std::uint32_t number = rounds.answers[0].number;
+  for (int i = 1; i <= 20; ++i) {
+    rounds.scene.bodies = {bodyOf(Vector3(15, 1 - 0.05 * i, 10), Vector3(3, 5, 30), 10.0)};
+    const GuideAnswer& answer = rounds.round();
+    ASSERT_EQ(answer.state, GuideState::kGuided);
+    EXPECT_EQ(answer.course, course) << i;
+  }
+  EXPECT_GT(rounds.answers[0].number, number) << "it need not have moved: this shows nothing";
 }
 
 TEST(GuidePlanner, ChangesSidesForARealGain) {

@@ -41,6 +41,7 @@ struct GuideAnswer {
   GuideState state = GuideState::kNotNeeded;
   std::uint32_t version = 0;  ///< of the request
   std::uint32_t number = 0;   ///< changes with the path
+  std::uint32_t course = 0;   ///< changes with the way round, not where a path only gives way to what has moved
   GuidePath path;             ///< from where the UAV was to where it is back on the reference
   double branch = 0.0;        ///< arc length on the reference where it was left [m]
   double rejoin = 0.0;        ///< arc length where it is joined again [m]
@@ -101,7 +102,9 @@ class GuidePlanner {
   /// Finds out whether the UAV needs a guide, or a new one.
   void assess(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav, GuideAnswer& answer);
   /// Whether the rest of a guide, and the reference after it within reach, is clear.
-  bool isClearStill(const GuideRequest& request, const GuideAnswer& answer);
+  bool isClearStill(const GuideRequest& request, const GuidePath& rest, const GuideAnswer& answer) const;
+  /// Moves the points of a guide that are too near to something away from it. False if that does not make it clear.
+  bool repair(const GuideRequest& request, GuideAnswer& answer);
   void search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer);
   /// Makes space_, traffic_ and query_ those of an attempt. Where it leads; none if no place is clear.
   std::optional<Goal> prepare(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav,

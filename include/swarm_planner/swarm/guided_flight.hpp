@@ -55,6 +55,7 @@ class GuidedFlight {
   bool has_no_way_ = false;
   std::uint32_t version_ = 0;
   std::uint32_t number_ = 0;
+  std::uint32_t course_ = 0;
   const MovingTarget* followed_ = nullptr;
   std::size_t points_ = 0;  ///< of what is followed, with its ends [m]
   Vector3 first_ = Vector3::Zero();
