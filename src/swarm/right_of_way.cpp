@@ -10,6 +10,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTolerance = 0.2;        // of having arrived where the scenario has none [m]
 constexpr double kPatientStages = 10.0;   // half a horizon without progress
+constexpr double kImpatience = 0.4;       // of the patience, once a UAV has been held up
 constexpr double kHardlyMoved = 0.25;     // of the pair distance
 constexpr double kLookAhead = 3.0;        // spacings of its way on which a UAV looks who stands there
 constexpr double kWayLength = 40.0;       // spacings of a way in which it can be passed
@@ -99,7 +100,10 @@ bool RightOfWay::watch(std::size_t i, const Reason& judged) {
     traffic.anchored_since = epoch_;
   }
   if (is_there && !traffic.gives_way) traffic.since = epoch_;
-  return epoch_ - traffic.anchored_since >= patience_;
+  const double patience = epoch_ < traffic.jammed_until ? kImpatience * patience_ : patience_;
+  const bool is_held_up = epoch_ - traffic.anchored_since >= patience;
+  if (is_held_up) traffic.jammed_until = epoch_ + kLongest * patience_;
+  return is_held_up;
 }
 
 bool RightOfWay::isOver(const UavRecord& uav) const {
@@ -160,10 +164,11 @@ void RightOfWay::resolve(std::size_t i, const NeighbourLists& neighbours) {
   const Way way = wayOf(i);
   findBlockers(i, way, neighbours);
   if (blockers_.empty()) {
-    // What holds it up is no UAV, and it stays where it is: nobody need wait for it.
-    if (!traffic.gives_way) traffic.since = epoch_;
+    // What holds it up is no UAV, and it stays where it is: nobody need wait for it. Unless others have only just left.
+    if (!traffic.gives_way && epoch_ - traffic.blocked_at >= patience_) traffic.since = epoch_;
     return;
   }
+  traffic.blocked_at = epoch_;
   if (!traffic.gives_way) {
     for (const Blocker& blocker : blockers_) {
       if (!sharesEnd(i, blocker.uav)) continue;

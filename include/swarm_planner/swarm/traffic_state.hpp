@@ -24,6 +24,8 @@ struct TrafficState {
   bool is_anchored = false;          ///< `anchor` holds
   Vector3 anchor = Vector3::Zero();  ///< it has hardly moved from here ...
   double anchored_since = 0.0;       ///< ... since [s]
+  double jammed_until = 0.0;         ///< held up lately: it waits less long before it asks again [s]
+  double blocked_at = -1e300;        ///< somebody stood in its way last [s]
   double insistence = 1.0;           ///< times the patience before it asks a UAV at its goal to move
   Courtesy courtesy = Courtesy::kNone;
   std::size_t partner = 0;  ///< the other one
