@@ -16,7 +16,7 @@ struct NegativeControl {
   bool LimitParameters::*kept;  ///< the same parameter
 };
 
-constexpr std::array<NegativeControl, 5> kNegativeControls{{
+constexpr std::array<NegativeControl, 6> kNegativeControls{{
     {"check", "plan_check", &LimitParameters::plan_check},
     {"segments", "segment_constraints", &LimitParameters::segment_constraints},
     {"latency", "latency_compensation", &LimitParameters::latency_compensation},
