@@ -15,8 +15,8 @@ namespace {
 constexpr double kBoundSlack = 0.1;  // of a bound, by which an observed state may exceed it
 constexpr double kDistinct = 0.1;  // after their epoch, new plans differ from those before enough to be told apart [s]
 constexpr double kMoved = 0.5;     // a UAV so far from a motion does not fly it [m]
-constexpr double kMovedSpeed = 1.5;  // nor one whose velocity differs so much [m/s]
-constexpr double kFootWindow = 5.0;  // of arc length to look for the foot in, beyond what can have been flown [m]
+constexpr double kMovedSpeed = 1.5;     // nor one whose velocity differs so much [m/s]
+constexpr double kFootWindow = 5.0;     // of arc length to look for the foot in, beyond what can have been flown [m]
 constexpr double kSettlingTimes = 2.0;  // tracking_time, from the first plan on, until a vehicle may be on it
 
 /// The parabola through the velocities of three measurements: acceleration and jerk at the last one.

@@ -150,6 +150,8 @@ void UavRecord::forgetMotions() {
 }
 
 void UavRecord::loseSight(const Parameters& parameters) {
+  // Odometry is not believed there yet, but that may be the truth: others keep clear of it.
+  if (monitor.stood()) aside.emplace().assignRest(monitor.stood()->stamp, monitor.stood()->p);
   if (unseen) return;
   unseen = true;
   if (aside) return;

@@ -139,6 +139,7 @@ TEST_F(Monitor, BelievesAUavThatHasStoppedWhileItsOdometryLied) {
     for (double t = 2.7; t < 5.0; t += 0.3) {
       const bool believed = aside < 1.0 && t > 3.65;  // after a second
       EXPECT_EQ(judge(t, stand + 0.01 * t * kFast, Vector3::Zero()), believed ? Reason::kNone : Reason::kOdometryJumps);
+      EXPECT_EQ(monitor_.stood().has_value(), aside < 1.0 && !believed) << "others keep clear of it at once";
     }
   }
 }

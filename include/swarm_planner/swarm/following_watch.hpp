@@ -30,8 +30,8 @@ class FollowingWatch {
   /// so much is the odometry's doing, not the vehicle's. `motions`: what the UAV is to fly.
   void note(const UavMeasurement& measurement, const Vector3& drift, const MotionMemory& motions,
             const InputParameters& input);
-  /// Until `t` [s] the vehicle is on its way from where it really was to what it is told, which began with a guess: it is
-  /// suspected at most.
+  /// Until `t` [s] the vehicle is on its way from where it really was to what it is told, which began with a guess: it
+  /// is suspected at most.
   void settleUntil(double t) { settled_ = t; }
   /// It is known anew what the vehicle flies.
   void reset() { *this = FollowingWatch(); }
@@ -52,7 +52,7 @@ class FollowingWatch {
   Vector3 last_place_ = Vector3::Zero();  ///< of the last one that was [m]
   double last_off_ = 0.0;                 ///< its stamp [s]
   double stamp_ = 0.0;                    ///< of the newest one [s]
-  double settled_ = 0.0;                 ///< since when it can be on its motions [s]
+  double settled_ = 0.0;                  ///< since when it can be on its motions [s]
 };
 
 }  // namespace swarm_planner

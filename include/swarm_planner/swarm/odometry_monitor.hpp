@@ -46,6 +46,8 @@ class OdometryMonitor {
 
   /// The last measurement that could be planned from; empty if there has been none.
   const std::optional<UavMeasurement>& trusted() const { return trusted_; }
+  /// Where a UAV whose odometry is doubted seems to stand, not yet for long enough to be believed.
+  const std::optional<UavMeasurement>& stood() const { return stood_; }
   /// By how much positions have left the way that the velocities tell, in the last seconds up to that one [m].
   const Vector3& drift() const { return drift_; }
 
