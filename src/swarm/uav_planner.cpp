@@ -20,6 +20,7 @@ constexpr double kReserve = 0.002;       // of the bounds, that the solver stays
 constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
 constexpr double kSameShortfall = 1e-3;  // [m s]
 constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
+constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -301,17 +302,16 @@ void UavPlanner::guessActiveRows(double epoch, UavRecord& record) const {
 
 void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
   const auto [target, on_path, progress] = followedTarget(record);
-  progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
+  const double full_speed = parameters_.limits.max_speed;
+  progress = on_path ? target.path.advance(record.start.p, progress, kPassed * full_speed * problem_.dt)
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
   on_path = true;
   problem_.epoch = epoch;
   problem_.start = record.start;
   problem_.path = &target.path;
   problem_.progress = progress;
-  for (std::size_t k = 0; k <= kHorizon; ++k) {
-    problem_.targets[k] = target.at(epoch + static_cast<double>(k) * problem_.dt);
-  }
-  lag_ = problem_.targets[0].arc_length - progress;
+  problem_.targets = previewTargets(target, progress, full_speed, epoch, problem_.dt);
+  lag_ = target.at(epoch).arc_length - progress;
   record.guide.setFollowed(target);
   problem_.is_guided = record.guide.active();
   if (problem_.is_guided) record.guide.pose(target, progress, problem_);

@@ -58,8 +58,8 @@ class UavPlanner {
   UavProblem problem_;
   SqpSolver sqp_;
   CheckSurroundings check_;
+  double lag_ = 0.0;                     ///< of the start behind the target, along the path [m]
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
-  double lag_ = 0.0;                     ///< on what is followed, guide or not [m]
 
   Trajectory plan_;     ///< in work
   Trajectory shifted_;  ///< the motion flown, from the start in work on
