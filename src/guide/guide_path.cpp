@@ -6,7 +6,8 @@
 namespace swarm_planner {
 namespace {
 
-constexpr int kSweeps = 3;
+constexpr int kSweeps = 6;
+constexpr double kNoGain = 1e-6;      // of the length: a pull that shortens it by less is none
 constexpr int kHalvings = 5;          // of a pull that is not clear
 constexpr double kWorthwhile = 1e-3;  // of the length, for another sweep
 
@@ -36,10 +37,10 @@ class Tightening {
   }
 
  private:
-  /// Takes the other path if it is clear and cheaper. What comes before point `first` is the same.
-  bool take(const GuidePath& other, std::size_t first) {
+  /// Takes the other path if it is clear and costs at most `most`. What comes before point `first` is the same.
+  bool take(const GuidePath& other, std::size_t first, double most) {
     const double cost = costOf(other, pace_, traffic_);
-    if (cost >= cost_) return false;
+    if (!(cost <= most)) return false;
     double way = 0.0;
     for (std::size_t i = 0; i < first; ++i) way += (other.points[i + 1] - other.points[i]).norm();
     if (!isClearFrom(other, first, way, pace_, space_)) return false;
@@ -55,21 +56,23 @@ class Tightening {
                 path_.points.begin() + static_cast<std::ptrdiff_t>(path_.count),
                 shorter.points.begin() + static_cast<std::ptrdiff_t>(i));
       --shorter.count;
-      if (!take(shorter, i - 1)) ++i;
+      if (!take(shorter, i - 1, cost_)) ++i;
     }
   }
 
   void pull(std::size_t i) {
     const Vector3& before = path_.points[i - 1];
     const Vector3 chord = path_.points[i + 1] - before;
-    const double share = std::clamp((path_.points[i] - before).dot(chord) / chord.squaredNorm(), 0.0, 1.0);
+    const double squared = chord.squaredNorm();
+    const double along = (path_.points[i] - before).dot(chord);
+    const double share = squared > 0.0 ? std::clamp(along / squared, 0.0, 1.0) : 0.0;
     const Vector3 pulled = before + share * chord;
     const Vector3 old = path_.points[i];
     double part = 1.0;
     for (int halving = 0; halving < kHalvings; ++halving, part *= 0.5) {
       GuidePath other = path_;
       other.points[i] = old + part * (pulled - old);
-      if (take(other, i - 1)) return;
+      if (take(other, i - 1, (1.0 - kNoGain) * cost_)) return;
     }
   }
 

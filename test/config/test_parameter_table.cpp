@@ -36,6 +36,7 @@ const Place kPlaces[] = {
     {"plan_check", false, [](const Parameters& p) -> ParameterValue { return p.limits.plan_check; }},
     {"segment_constraints", false, [](const Parameters& p) -> ParameterValue { return p.limits.segment_constraints; }},
     {"right_of_way", false, [](const Parameters& p) -> ParameterValue { return p.limits.right_of_way; }},
+    {"guide", false, [](const Parameters& p) -> ParameterValue { return p.limits.guide; }},
     {"latency_compensation", false,
      [](const Parameters& p) -> ParameterValue { return p.limits.latency_compensation; }},
     {"sampling_time", 0.21, [](const Parameters& p) -> ParameterValue { return p.time.sampling_time; }},

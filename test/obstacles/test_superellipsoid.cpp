@@ -115,5 +115,16 @@ TEST(Superellipsoid, RefusesWhatIsNoConvexBody) {
   }
 }
 
+TEST(Superellipsoid, AtALevelHasItsSurfaceWhereTheSumIsThatLevel) {
+  const Superellipsoid body(3, Vector3(1, 2, 3), Vector3(0.5, 2, 4), Vector3(2, 3.5, 8), 0.4, Vector3(1, 0, 0));
+  const Superellipsoid grown = body.atLevel(1.3);
+  for (const Vector3& u : {Vector3(0.3, 1, 2), Vector3(-0.7, 0.2, 3), Vector3(0, -3, 1)}) {
+    const Vector3 surface = u / grown.gauge(u).value;
+    EXPECT_NEAR(body.sum(surface), 1.3, 1e-9);
+  }
+  EXPECT_EQ(grown.center(), body.center());
+  EXPECT_EQ(grown.velocity(), body.velocity());
+}
+
 }  // namespace
 }  // namespace swarm_planner

@@ -176,5 +176,23 @@ TEST(MovingTarget, VelocityIsTheDerivativeOfItsPosition) {
   }
 }
 
+TEST(ReferencePath, VisitsTheCornersThatFollow) {
+  const ReferencePath path({Vector3::Zero(), Vector3(2, 0, 0), Vector3(2, 3, 0), Vector3(2, 3, 4)});
+  std::vector<double> ways;
+  const auto note = [&ways](const Vector3& point, double arc_length) {
+    EXPECT_GT(point.x(), 1.0);
+    ways.push_back(arc_length);
+    return ways.size() < 2;
+  };
+  path.forEachPointAfter(1.0, note);
+  EXPECT_EQ(ways, (std::vector<double>{2.0, 5.0})) << "until it is told to stop";
+  ways.clear();
+  path.forEachPointAfter(5.0, note);
+  EXPECT_EQ(ways, (std::vector<double>{9.0}));
+  ways.clear();
+  path.forEachPointAfter(9.0, note);
+  EXPECT_TRUE(ways.empty());
+}
+
 }  // namespace
 }  // namespace swarm_planner
