@@ -57,7 +57,7 @@ TEST(RightOfWay, HeadOnInALaneOneBacksOut) {
 
 // Nobody is nearer than the others, and nobody can get any nearer.
 TEST(RightOfWay, OfSeveralSentToOnePlaceOneGetsThereAndTheOthersParkBesideIt) {
-  constexpr int kUavs = 6;
+  constexpr int kUavs = 8;
   std::vector<Vector3> starts;
   for (int i = 0; i < kUavs; ++i) {
     starts.emplace_back(10.0 * std::cos(2.0 * M_PI * i / kUavs), 10.0 * std::sin(2.0 * M_PI * i / kUavs), 10.0);

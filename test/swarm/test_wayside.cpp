@@ -64,10 +64,11 @@ class WaysideTest : public testing::Test {
     return track;
   }
   std::optional<WayAside> find(const Vector3& from, const Vector3& wanted = Vector3(0, 0, 10)) {
-    Wayside wayside(parameters_, workspace_, 20, 20);
+    Wayside wayside(parameters_, workspace_, 100, 20);
     spacing_ = wayside.spacing();
     wayside.begin(obstacles_, 0.0);
     wayside.forgetOthers();
+    wayside.addOther(way_.begin(), false);  // who comes
     for (const Vector3& other : others_) wayside.addOther(other, false);
     for (const Vector3& other : lower_) wayside.addOther(other, true);
     Wayside::Request request;
@@ -151,13 +152,13 @@ TEST_F(WaysideTest, HoldsAllItPromisesAmongRandomObstaclesAndUavs) {
     obstacles_.clear();
     others_.clear();
     workspace_ = Workspace{Vector3(-20, -6, 8.5), Vector3(20, 6, 11.5)};
-    const Vector3 from(random.uniform(-3, 3), random.uniform(-1, 1), 10.0);
-    while (obstacles_.size() < 8) {
+    const Vector3 from(random.uniform(-2, 3), random.uniform(-1, 1), 10.0);
+    while (obstacles_.size() < 14) {
       const Vector3 center(random.uniform(-12, 12), random.uniform(-6, 6), 10.0);
       const TrackedObstacle track = obstacle(center, Vector3(random.uniform(0.3, 2), 1, 5), Vector3::Zero());
       if (track.shape.signedDistance(from) > 0.6) obstacles_.push_back(track);
     }
-    while (others_.size() < 8) {
+    while (others_.size() < 20) {
       const Vector3 other(random.uniform(-12, 12), random.uniform(-6, 6), random.uniform(9, 11));
       if ((other - from).norm() > 2.2) others_.push_back(other);
     }
