@@ -18,6 +18,17 @@ bool hasEdges(const Superellipsoid& body) {
   return p.sum() - p.minCoeff() - p.maxCoeff() > kLeastEdgeExponent;
 }
 
+/// Of the distance to keep; a segment that comes closer to the reference point than that leads through the body.
+constexpr double kThrough = 0.1;
+
+/// The point nearest to the origin on the way from one point to another.
+Vector3 nearestBetween(const Vector3& from, const Vector3& to) {
+  const Vector3 way = to - from;
+  const double squared_length = way.squaredNorm();
+  if (!(squared_length > 0.0)) return from;
+  return from + std::clamp(-from.dot(way) / squared_length, 0.0, 1.0) * way;
+}
+
 }  // namespace
 
 MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
@@ -82,6 +93,17 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
   return {gauge.gradient / steepness, 1.0 / steepness + distance_};
 }
 
+HalfSpace MovingBody::separatingHalfSpace(const SegmentPoints& relative) const {
+  if (motion_ == nullptr) return supportingHalfSpace(midpoint(relative));
+  SegmentPoints shrunk;
+  for (std::size_t i = 0; i < shrunk.size(); ++i) shrunk[i] = scale_.cwiseProduct(relative[i]);
+  const Vector3 nearest = nearestPoint(shrunk);
+  const double length = nearest.norm();
+  // Where the segment leads through the middle of the body no plane separates them.
+  if (length < kThrough * distance_) return supportingHalfSpace(midpoint(relative));
+  return {scale_.cwiseProduct(nearest) / length, distance_};
+}
+
 void MovingBody::relieve(const Vector3& r, double margin) {
   // Where the ellipsoid is long the clearance counts less than metres: so much of it costs the margin there.
   relief_ = std::clamp(-supportingHalfSpace(r).clearance(r), 0.0, scale_.minCoeff() * margin);
@@ -96,9 +118,25 @@ SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints&
 
 Vector3 midpoint(const SegmentPoints& r) { return 0.125 * (r[0] + r[3]) + 0.375 * (r[1] + r[2]); }
 
+Vector3 nearestPoint(const SegmentPoints& points) {
+  constexpr int kMostSteps = 6;
+  constexpr double kEnough = 0.02;  // of the squared distance, that another control point may gain
+  // Segments are nearly straight: most of the way is along the chord (Frank and Wolfe's method with exact steps).
+  Vector3 nearest = nearestBetween(points[0], points[3]);
+  for (int step = 0; step < kMostSteps; ++step) {
+    const Vector3* best = &points[0];
+    for (const Vector3& point : points) {
+      if (point.dot(nearest) < best->dot(nearest)) best = &point;
+    }
+    if (best->dot(nearest) > (1.0 - kEnough) * nearest.squaredNorm()) break;
+    nearest = nearestBetween(nearest, *best);
+  }
+  return nearest;
+}
+
 SegmentClearance segmentClearance(const MovingBody& body, int k, const SegmentPoints& relative) {
   SegmentClearance result;
-  result.half_space = body.supportingHalfSpace(midpoint(relative));
+  result.half_space = body.separatingHalfSpace(relative);
   result.half_space.offset += body.growth(k) - body.relief(k);
   result.clearance = result.half_space.clearance(relative[0]);
   for (std::size_t i = 1; i < 4; ++i)

@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Box planBox(const Trajectory& plan) {
-  Box box;
-  for (std::size_t k = 0; k < kHorizon; ++k) {
-    for (const Vector3& point : segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt)) box.include(point);
-  }
-  return box;
-}
-
 void addBoundViolations(const FlightBounds& bounds, const KinematicState& x, double dt, Violation& violation) {
   violation.add(bounds.max_speed - x.v.norm());
   if (bounds.between_samples) violation.add(bounds.max_speed - (x.v + 0.5 * dt * x.a).norm());
@@ -45,13 +37,13 @@ double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative
 }
 
 /// `plane`: the first of the body's planes; `end`: of all planes.
-void addBodyViolations(const UavProblem& problem, const MovingBody& body, const Trajectory& plan,
+void addBodyViolations(const UavProblem& problem, const MovingBody& body, const PlanPoints& points,
                        SegmentPlanes::const_iterator plane, SegmentPlanes::const_iterator end, Violation& violation) {
   const std::size_t index = plane != end ? plane->body : 0;
   for (int k = 0; k < kHorizon; ++k) {
     while (plane != end && plane->body == index && plane->segment < k) ++plane;
     const bool has_plane = plane != end && plane->body == index && plane->segment == k;
-    const SegmentPoints relative = constrainedPoints(problem, plan, k, body);
+    const SegmentPoints relative = relativeConstrainedPoints(problem, points, k, body);
     if (isBeyond(body, relative, 0.0)) continue;
     const double known = has_plane ? leastClearance(plane->half_space, relative) : -kInfinity;
     if (known >= 0.0) continue;
@@ -94,34 +86,48 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   workspace.max = scenario_workspace->max - margin;
 }
 
-SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k) {
-  const auto i = static_cast<std::size_t>(k);
-  SegmentPoints points = segmentPoints(plan.knots[i], plan.knots[i + 1], plan.dt);
-  if (!problem.bounds.between_samples) points.fill(plan.knots[i + 1].p);
-  return points;
+void findConstrainedPoints(const UavProblem& problem, const Trajectory& plan, PlanPoints& points) {
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (problem.bounds.between_samples) {
+      points[k] = segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt);
+    } else {
+      points[k].fill(plan.knots[k + 1].p);
+    }
+  }
 }
 
-SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k, const MovingBody& body) {
-  SegmentPoints relative = relativePoints(body, k, constrainedPoints(problem, plan, k));
+SegmentPoints relativeConstrainedPoints(const UavProblem& problem, const PlanPoints& points, int k,
+                                        const MovingBody& body) {
+  SegmentPoints relative = relativePoints(body, k, points[static_cast<std::size_t>(k)]);
   if (!problem.bounds.between_samples) relative.fill(Vector3(relative[3]));
   return relative;
+}
+
+Box planBox(const PlanPoints& points) {
+  Box box;
+  for (const SegmentPoints& segment : points) {
+    for (const Vector3& point : segment) box.include(point);
+  }
+  return box;
 }
 
 Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
   Violation violation;
   const bool bounded = problem.bounds.workspace.max.allFinite();
-  for (int k = 0; k < kHorizon; ++k) {
-    addBoundViolations(problem.bounds, plan.knots[static_cast<std::size_t>(k) + 1], plan.dt, violation);
-    if (bounded) addWorkspaceViolations(problem.bounds, constrainedPoints(problem, plan, k), violation);
+  PlanPoints points;
+  findConstrainedPoints(problem, plan, points);
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    addBoundViolations(problem.bounds, plan.knots[k + 1], plan.dt, violation);
+    if (bounded) addWorkspaceViolations(problem.bounds, points[k], violation);
   }
-  const Box box = planBox(plan);
+  const Box box = planBox(points);
   auto plane = planes.begin();
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     const MovingBody& body = problem.bodies[i];
     while (plane != planes.end() && plane->body < i) ++plane;
     const bool has_planes = plane != planes.end() && plane->body == i;
     if (body.box().near(box, 0.0)) {
-      addBodyViolations(problem, body, plan, has_planes ? plane : planes.end(), planes.end(), violation);
+      addBodyViolations(problem, body, points, has_planes ? plane : planes.end(), planes.end(), violation);
     }
   }
   return violation;

@@ -91,8 +91,8 @@ struct GeneratedSolver::Memory {
   const GeneratedTables::Entry* initialised_for = nullptr;
 };
 
-GeneratedSolver::GeneratedSolver(std::shared_ptr<const GeneratedTables> tables)
-    : tables_(std::move(tables)), memory_(new Memory) {}
+GeneratedSolver::GeneratedSolver(std::shared_ptr<const GeneratedTables> tables, int most_changes)
+    : tables_(std::move(tables)), most_changes_(most_changes), memory_(new Memory) {}
 
 GeneratedSolver::~GeneratedSolver() = default;
 
@@ -106,10 +106,12 @@ QpStatus GeneratedSolver::solve(const Qp& qp, QpSolution& solution) {
   if (memory_->initialised_for != entry) functions().init(&s, &entry->tables);
   memory_->initialised_for = entry;
   load(qp, solution.active);
+  s.most_changes = most_changes_;
   const int status = functions().solve(&entry->tables, &s);
   solution.iterations = s.iterations;
   solution.fell_back = s.method != PLANNER_QP_ACTIVE_SET;
   if (status == PLANNER_QP_SOLVED) solution.status = QpStatus::kSolved;
+  if (status == PLANNER_QP_UNFINISHED) solution.status = QpStatus::kIterationLimit;
   for (std::size_t k = 0; k < kHorizon; ++k) solution.jerks[k] = qp.axes * Eigen::Map<const Vector3>(s.u[k]);
   for (int i = 0; i < s.active_count; ++i) solution.max_slack = std::max(solution.max_slack, s.slack[i]);
   storeActiveRows(solution.active);

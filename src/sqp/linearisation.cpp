@@ -4,20 +4,21 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <optional>
 
-#include "swarm_planner/problem/passing_side.hpp"
 #include "swarm_planner/problem/tracking_cost.hpp"
+#include "swarm_planner/sqp/separating_planes.hpp"
 
 namespace swarm_planner {
 namespace {
 
-constexpr double kNormBand = 0.6;        // of a norm limit, below which the iterate gets no tangent plane
-constexpr double kReachableSpeed = 0.7;  // of max_speed, sideways, when judging whether a way out can be reached
+constexpr double kNormBand = 0.6;  // of a norm limit, below which the iterate gets no tangent plane
 
 /// Sources of rows: the limits' own at the iterate, their cuts by the number of the answer, the workspace's faces, and
 /// two per body, since a knot belongs to two segments.
 constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 200;
+
+// A knot's position has rows of two segments and of two faces of the workspace per axis.
+static_assert(2 * kMostSegmentPlanes + 2 * 6 <= kMaxBodyRows, "a stage cannot hold what is nearest");
 
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
 void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {
@@ -79,56 +80,38 @@ void addWorkspaceRows(const FlightBounds& bounds, int k, const SegmentPoints& po
   }
 }
 
-/// The segments of an iterate as one body sees them.
-struct Passage {
-  std::array<SegmentPoints, kHorizon> relative;
-  std::array<std::optional<SegmentClearance>, kHorizon> near;  ///< set where the segment lies within the band
-  int deepest = -1;                                            ///< segment that violates the distance most
-};
+/// Whether a plane asks no more of the knot between two segments than that of the segment before.
+bool isRepeated(const SegmentPlane& before, const SegmentPlane& plane) {
+  constexpr double kSame = 1e-9;
+  return before.body == plane.body && before.segment + 1 == plane.segment &&
+         (before.half_space.n - plane.half_space.n).cwiseAbs().maxCoeff() <= kSame &&
+         before.half_space.offset >= plane.half_space.offset - kSame;
+}
 
-void findPassage(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band,
-                 Passage& passage) {
-  double least = 0.0;
-  passage.deepest = -1;
-  for (int k = 0; k < kHorizon; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    passage.relative[i] = constrainedPoints(problem, iterate, k, body);
-    passage.near[i].reset();
-    if (isBeyond(body, passage.relative[i], band)) continue;
-    const SegmentClearance segment = segmentClearance(body, k, passage.relative[i]);
-    if (segment.clearance > band) continue;
-    passage.near[i] = segment;
-    if (segment.clearance >= least) continue;
-    least = segment.clearance;
-    passage.deepest = k;
+/// The stop that follows the plan begins with two control points that its end fixes; the body goes on meanwhile.
+void addStopRows(const SegmentPlane& last, const MovingBody& body, Qp& qp) {
+  const Vector3 end = body.point(kHorizon - 1, 3);
+  const Vector3 step = end - body.point(kHorizon - 1, 2);
+  for (int j = 1; j <= 2; ++j) {
+    addControlPointRow(qp, kHorizon, j, last.half_space.n,
+                       last.half_space.offset + last.half_space.n.dot(end + j * step),
+                       kBodySource + 2 * body.identity());
   }
 }
 
-void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory& iterate, double band, Qp& qp,
-                 SegmentPlanes* planes) {
-  const MovingBody& body = problem.bodies[index];
-  Passage passage;
-  findPassage(problem, body, iterate, band, passage);
-  std::optional<PassingSide> side;
-  if (passage.deepest > 0) {
-    const auto i = static_cast<std::size_t>(passage.deepest);
-    const double time = passage.deepest * iterate.dt;
-    const Vector3 position = midpoint(constrainedPoints(problem, iterate, passage.deepest));
-    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
-                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
-  }
-  for (int k = 0; k < kHorizon; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (!passage.near[i]) continue;
-    HalfSpace half_space = passage.near[i]->half_space;
-    if (side && passage.near[i]->clearance < 0.0) {
-      half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
-    }
-    if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, half_space});
-    for (int j = static_cast<int>(firstConstrainedPoint(problem.bounds)); j < 4; ++j) {
-      addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),
+void addBodyRows(const UavProblem& problem, const SegmentPlanes& planes, Qp& qp) {
+  const auto first_point = static_cast<int>(firstConstrainedPoint(problem.bounds));
+  for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
+    const MovingBody& body = problem.bodies[plane->body];
+    const HalfSpace& half_space = plane->half_space;
+    // A knot belongs to two segments. Where both have the same plane one row does.
+    const bool is_repeated = plane != planes.begin() && isRepeated(*(plane - 1), *plane);
+    for (int j = first_point + (is_repeated && first_point == 0 ? 1 : 0); j < 4; ++j) {
+      addControlPointRow(qp, plane->segment, j, half_space.n,
+                         half_space.offset + half_space.n.dot(body.point(plane->segment, j)),
                          kBodySource + 2 * body.identity());
     }
+    if (plane->segment == kHorizon - 1 && problem.bounds.between_samples) addStopRows(*plane, body, qp);
   }
 }
 
@@ -191,24 +174,20 @@ QpModels makeQpModels(const Parameters& parameters) {
   return models;
 }
 
-void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes* planes) {
-  if (planes != nullptr) planes->clear();
+void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes& planes) {
   qp.start = problem.start;
   qp.clear();
   setCost(problem, iterate, qp);
 
-  Box box;
   const bool bounded = problem.bounds.workspace.max.allFinite();
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);
     const SegmentPoints points = segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt);
-    for (const Vector3& point : points) box.include(point);
     addBoundRows(problem.bounds, iterate.knots[i + 1], k + 1, qp);
     if (bounded) addWorkspaceRows(problem.bounds, k, points, band, qp);
   }
-  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
-    if (problem.bodies[i].box().near(box, band)) addBodyRows(problem, i, iterate, band, qp, planes);
-  }
+  findSeparatingPlanes(problem, iterate, band, planes);
+  addBodyRows(problem, planes, qp);
 }
 
 void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp) {

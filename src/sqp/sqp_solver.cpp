@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "swarm_planner/sqp/linearisation.hpp"
+#include "swarm_planner/sqp/separating_planes.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -29,7 +30,7 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
       qp_(std::make_unique<Qp>()),
       solution_(std::make_unique<QpSolution>()),
       answers_(static_cast<std::size_t>(kMostSqpIterations)) {
-  planes_.reserve(static_cast<std::size_t>(kMaxBodyRows * kHorizon));
+  planes_.reserve(kSegmentPlaneRoom);
 }
 
 SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active) {
@@ -62,7 +63,7 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
 
 QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, int iteration) {
   const double band = kSampleBand * problem.bounds.max_speed * problem.dt;
-  linearise(problem, plan, band, *qp_, &planes_);
+  linearise(problem, plan, band, *qp_, planes_);
   for (int i = 0; i < iteration; ++i) addNormCuts(problem, answers_[static_cast<std::size_t>(i)], i, *qp_);
   const QpStatus status = qp_solver_->solve(*qp_, *solution_);
   Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];

@@ -24,6 +24,10 @@ constexpr double kSameShortfall = 1e-3;  // [m s]
 constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Changes of the active set per QP. Where a crowd leaves no way that keeps every distance a QP may take hundreds, all
+/// of them for rows that stay violated; the step as far as it has come is judged by the merit, as any other, and the
+/// next QP goes on from its active rows.
+constexpr int kMostQpChanges = 100;
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
 
@@ -58,7 +62,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
     : parameters_(parameters),
       limits_(makeCheckLimits(parameters, workspace ? &*workspace : nullptr)),
       workspace_(limits_.bounds.workspace),
-      sqp_(std::make_unique<GeneratedSolver>(std::move(tables))) {
+      sqp_(std::make_unique<GeneratedSolver>(std::move(tables), kMostQpChanges)) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
   problem_.bounds = reserved(limits_.bounds);

@@ -148,11 +148,12 @@ void collectBodies(benchmark::State& state) {
 void posingTheQp(benchmark::State& state) {
   MidFlight& swarm = midFlight(state);
   const auto qp = std::make_unique<Qp>();
+  SegmentPlanes planes;
   double rows = 0.0;
   for (auto _ : state) {
     rows = 0.0;
     for (std::size_t i = 0; i < swarm.uavCount(); ++i) {
-      linearise(swarm.problems()[i], swarm.guesses()[i], swarm.band(), *qp);
+      linearise(swarm.problems()[i], swarm.guesses()[i], swarm.band(), *qp, planes);
       rows += qp->rowCount();
     }
   }
@@ -165,8 +166,9 @@ void solvingTheQp(benchmark::State& state) {
   MidFlight& swarm = midFlight(state);
   const std::unique_ptr<QpSolver> solver = swarm.makeSolver();
   std::vector<Qp> qps(swarm.uavCount());
+  SegmentPlanes planes;
   for (std::size_t i = 0; i < qps.size(); ++i) {
-    linearise(swarm.problems()[i], swarm.guesses()[i], swarm.band(), qps[i]);
+    linearise(swarm.problems()[i], swarm.guesses()[i], swarm.band(), qps[i], planes);
   }
   QpSolution solution;
   double changes = 0.0;

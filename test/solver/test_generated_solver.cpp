@@ -127,6 +127,38 @@ TEST_P(GeneratedSolverTest, AWrongGuessChangesNothing) {
   }
 }
 
+// A crowd's QP must not take the time of all others'. What was found so far is worth something: the next solve goes on
+// from its active rows.
+TEST_P(GeneratedSolverTest, StopsAfterTheChangesAllowedAndGoesOnFromThere) {
+  constexpr int kMostChanges = 5;
+  std::mt19937_64 random(17);
+  auto solution = std::make_unique<QpSolution>();
+  int unfinished = 0;
+  int needed = 0;
+  for (int trial = 0; trial < 30; ++trial) {
+    const auto known = std::make_unique<KnownOptimum>(makeKnownOptimum(GetParam(), random));
+    numberRows(known->qp);
+    solution->active.count = 0;
+    ASSERT_EQ(solveGenerated(known->qp, *solution), QpStatus::kSolved);
+    needed = std::max(needed, solution->iterations);
+    const double least = objective(known->qp, solution->jerks);
+    GeneratedSolver limited(std::make_shared<GeneratedTables>(std::vector<QpModel>{known->qp.model}), kMostChanges);
+    solution->active.count = 0;
+    QpStatus status = limited.solve(known->qp, *solution);
+    for (int solve = 0; status == QpStatus::kIterationLimit && solve < 60; ++solve) {
+      ++unfinished;
+      ASSERT_FALSE(solution->fell_back);
+      ASSERT_GT(solution->active.count, 0);
+      for (const Vector3& jerk : solution->jerks) ASSERT_TRUE(jerk.allFinite());
+      EXPECT_GE(objective(known->qp, solution->jerks), least - 1e-8 * (1.0 + std::abs(least)));
+      status = limited.solve(known->qp, *solution);
+    }
+    ASSERT_EQ(status, QpStatus::kSolved) << "trial " << trial;
+    EXPECT_NEAR(objective(known->qp, solution->jerks), least, 1e-8 * (1.0 + std::abs(least))) << "trial " << trial;
+  }
+  EXPECT_EQ(unfinished > 0, needed > kMostChanges);
+}
+
 INSTANTIATE_TEST_SUITE_P(RowMixes, GeneratedSolverTest,
                          ::testing::Values(RowMix{0, 0, 0}, RowMix{0, 0, 5}, RowMix{1, 0, 5}, RowMix{0, 1, 5},
                                            RowMix{2, 1, 10}, RowMix{1, 1, 25}));

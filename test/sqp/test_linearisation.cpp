@@ -13,6 +13,7 @@
 #include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 #include "swarm_planner/problem/tracking_cost.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
+#include "swarm_planner/sqp/separating_planes.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -98,11 +99,12 @@ KinematicState besidePath(Random& random) {
 class LinearisationTest : public ::testing::Test {
  protected:
   const Qp& linearised(const UavProblem& problem, const Trajectory& iterate) {
-    linearise(problem, iterate, kBand, *qp_);
+    linearise(problem, iterate, kBand, *qp_, planes_);
     return *qp_;
   }
 
   std::unique_ptr<Qp> qp_ = std::make_unique<Qp>();
+  SegmentPlanes planes_;
 };
 
 class CostModel : public LinearisationTest, public ::testing::WithParamInterface<std::vector<Vector3>> {};
@@ -211,7 +213,7 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
     flight.addUav(other);
     Trajectory plan = wanderingPlan(random, start, 1.0, 0.0, dt);
     // With a band as wide as the scene every segment has its row, however far the plan has moved since.
-    linearise(flight.problem, plan, 1e3, *qp_);
+    linearise(flight.problem, plan, 1e3, *qp_, planes_);
     if (!satisfyRows(*qp_, plan)) continue;
     ++judged;
     // The first segment hangs on the start, which may be too close already.
@@ -229,8 +231,6 @@ TEST_F(LinearisationTest, APlanThatSatisfiesTheRowsKeepsClearOfTheBodies) {
 // Towards the segment and past a body met head on alike.
 TEST_F(LinearisationTest, KeepsTheGrownDistanceOnEachSegment) {
   Random random(7);
-  SegmentPlanes planes;
-  planes.reserve(1000);
   int sideways = 0;
   int count = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -241,8 +241,8 @@ TEST_F(LinearisationTest, KeepsTheGrownDistanceOnEachSegment) {
                                       Vector3(random.uniform(-1.0, 0.0), 0.0, 0.0)),
                        growth);
     const MovingBody& body = flight.problem.bodies[0];
-    linearise(flight.problem, flight.coasting(), kBand, *qp_, &planes);
-    for (const SegmentPlane& plane : planes) {
+    linearise(flight.problem, flight.coasting(), kBand, *qp_, planes_);
+    for (const SegmentPlane& plane : planes_) {
       double support = 0.0;
       for (int i = 0; i < 200; ++i) {
         const Vector3 u = random.direction();
@@ -295,9 +295,29 @@ TEST_F(LinearisationTest, HasRowsWithinTheBandOnly) {
         Superellipsoid(1, Vector3(0, y, 10), Vector3::Constant(2.0), Vector3::Constant(2.0), 0.0, Vector3(1, 0, 0)));
     return bodyRows(linearised(flight.problem, flight.coasting()));
   };
-  // All four control points of every segment but those three of the first one that the start fixes.
-  EXPECT_EQ(rowsBeside(kBand - 0.01), 4 * kHorizon - 3);
+  // All control points but those three of the first segment that the start fixes, and two of the stop; where two
+  // segments have the same plane one row holds for the knot between them.
+  EXPECT_EQ(rowsBeside(kBand - 0.01), 3 * kHorizon);
   EXPECT_EQ(rowsBeside(kBand + 0.01), 0);
+}
+
+// A plan that ends just in front of somebody, but not at rest, passes every other row: it is its stop that is refused.
+TEST_F(LinearisationTest, KeepsTheBeginningOfTheStopClear) {
+  const KinematicState start{Vector3(0, 0, 10), Vector3(1, 0, 0), Vector3::Zero()};
+  FlightProblem flight(kLine, 1.0, start);
+  const LimitParameters& limits = flight.parameters.limits;
+  const double dt = flight.problem.dt;
+  const Trajectory plan = flight.coasting();
+  const double gap = limits.pair_distance + limits.pair_margin;
+  const auto worstAt = [&](double beyond, const Vector3& v) {
+    flight.problem.bodies.clear();
+    const Vector3 end = plan.knots.back().p + Vector3(gap + beyond, 0, 0);
+    flight.addUav(straightPlan(end - kHorizon * dt * v, v, 0.0, dt));
+    return worstRow(linearised(flight.problem, plan), plan);
+  };
+  EXPECT_LE(worstAt(2.0 * dt / 3.0 + 0.01, Vector3::Zero()), 0.0);
+  EXPECT_NEAR(worstAt(0.01, Vector3::Zero()), 2.0 * dt / 3.0 - 0.01, 1e-6) << "nobody keeps the stop off";
+  EXPECT_LE(worstAt(0.01, Vector3(1, 0, 0)), 0.0) << "the other UAV goes on as fast";
 }
 
 TEST_F(LinearisationTest, HasWorkspaceRowsWithinTheBandOnly) {
@@ -364,7 +384,7 @@ TEST_F(LinearisationTest, HasNoRowForWhatTheStartFixes) {
   }
 }
 
-TEST_F(LinearisationTest, DropsRowsThatAStageCannotHold) {
+TEST_F(LinearisationTest, HasRoomForTheNearestBodiesOfACrowd) {
   const KinematicState start{Vector3(0, 0, 10), Vector3(1, 0, 0), Vector3::Zero()};
   FlightProblem flight(kLine, 3.0, start);
   for (int i = 0; i < 2 * kMaxStageRows; ++i) {
@@ -372,7 +392,7 @@ TEST_F(LinearisationTest, DropsRowsThatAStageCannotHold) {
   }
   const Qp& qp = linearised(flight.problem, flight.coasting());
   for (std::size_t k = 1; k <= kHorizon; ++k) EXPECT_LE(qp.stages[k].row_count, kMaxStageRows);
-  EXPECT_EQ(qp.stages[5].row_count, 3 * kMaxBodyRows);
+  EXPECT_EQ(qp.stages[5].row_count, 3 * static_cast<int>(kMostSegmentPlanes));
   EXPECT_EQ(linearised(flight.problem, flight.coasting()).rowCount(), qp.rowCount()) << "rows of the last time remain";
 }
 
@@ -400,7 +420,7 @@ TEST_F(LinearisationTest, CutsOffAnAnswerBeyondTheNormLimits) {
   const KinematicState start{Vector3(0, 0, 10), Vector3(3, 0, 0), Vector3::Zero()};
   FlightProblem flight(kLine, 3.0, start);
   const Trajectory iterate = flight.coasting();
-  linearise(flight.problem, iterate, kBand, *qp_);
+  linearise(flight.problem, iterate, kBand, *qp_, planes_);
   const int before = qp_->rowCount();
   addNormCuts(flight.problem, iterate, 0, *qp_);
   EXPECT_EQ(qp_->rowCount(), before) << "nothing to cut off an answer within the limits";

@@ -67,6 +67,9 @@ class MovingBody {
   /// A half-space whose boundary supports the set, grown by the distance to keep at the horizon's start, towards `r`.
   /// Whatever lies in it is clear of the body then.
   HalfSpace supportingHalfSpace(const Vector3& r) const;
+  /// Such a half-space towards where a whole segment is nearest: of a UAV the one that leaves the segment's control
+  /// points most room, but for the last per cents. That towards the middle cuts into segments that pass by quickly.
+  HalfSpace separatingHalfSpace(const SegmentPoints& relative) const;
 
   /// Contains everything that must be kept clear of over the whole horizon [m].
   const Box& box() const { return box_; }
@@ -102,6 +105,10 @@ SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints&
 /// The relative position at the middle of a segment [m].
 Vector3 midpoint(const SegmentPoints& relative);
 
+/// About the point of the hull of a segment's control points that is nearest to the origin; zero where the hull holds
+/// the origin.
+Vector3 nearestPoint(const SegmentPoints& points);
+
 /// True if the whole segment is certainly farther than `distance` [m] from what must be kept clear of.
 inline bool isBeyond(const MovingBody& body, const SegmentPoints& relative, double distance) {
   Box box;
@@ -112,8 +119,8 @@ inline bool isBeyond(const MovingBody& body, const SegmentPoints& relative, doub
   return away.cwiseMax(0.0).squaredNorm() > radius * radius;
 }
 
-/// How segment k lies to a body: the half-space, with the growth until then and less what is waived, towards its middle
-/// and the least clearance of its control points.
+/// How segment k lies to a body: the half-space that separates them, with the growth until then and less what is
+/// waived, and the least clearance of the segment's control points.
 struct SegmentClearance {
   HalfSpace half_space;
   double clearance = 0.0;  ///< lower bound over the whole segment [m], negative if violated

@@ -42,12 +42,17 @@ struct UavProblem {
   std::vector<MovingBody> bodies;  ///< whatever can be reached within the horizon
 };
 
-/// Points at which constraints hold while a plan flies segment k: its four control points, or, where they hold at the
-/// knots alone, four times the knot at its end.
-SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k);
+/// Points at which constraints hold while a plan flies each of its segments: the four control points, or, where they
+/// hold at the knots alone, four times the knot at its end.
+using PlanPoints = std::array<SegmentPoints, kHorizon>;
+void findConstrainedPoints(const UavProblem& problem, const Trajectory& plan, PlanPoints& points);
 
-/// The same relative to a body's reference point [m].
-SegmentPoints constrainedPoints(const UavProblem& problem, const Trajectory& plan, int k, const MovingBody& body);
+/// Contains all control points of a plan [m].
+Box planBox(const PlanPoints& points);
+
+/// Those of segment k relative to a body's reference point [m].
+SegmentPoints relativeConstrainedPoints(const UavProblem& problem, const PlanPoints& points, int k,
+                                        const MovingBody& body);
 
 /// The first of these that counts: 0, or 3 where all four are the same knot.
 inline std::size_t firstConstrainedPoint(const FlightBounds& bounds) { return bounds.between_samples ? 0 : 3; }
@@ -71,6 +76,7 @@ struct SegmentPlane {
   std::size_t body = 0;  ///< index in UavProblem::bodies
   int segment = 0;
   HalfSpace half_space;
+  double clearance = 0.0;  ///< of the segment that the plane was made for [m]
 };
 /// Ordered by body, then by segment; at most one for each.
 using SegmentPlanes = std::vector<SegmentPlane>;

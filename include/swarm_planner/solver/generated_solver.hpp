@@ -28,7 +28,9 @@ class GeneratedTables {
 /// meets its cap, an interior-point method, with the widest vector instructions of this machine.
 class GeneratedSolver final : public QpSolver {
  public:
-  explicit GeneratedSolver(std::shared_ptr<const GeneratedTables> tables);
+  /// `most_changes`: of the active set, after which the answer counts as it is (QpStatus::kIterationLimit), so that the
+  /// time of a solve is bounded closely; 0: none, every QP is solved.
+  explicit GeneratedSolver(std::shared_ptr<const GeneratedTables> tables, int most_changes = 0);
   ~GeneratedSolver() override;
 
   /// The model has to be one of the tables'.
@@ -41,6 +43,7 @@ class GeneratedSolver final : public QpSolver {
   void storeActiveRows(ActiveRows& active) const;
 
   std::shared_ptr<const GeneratedTables> tables_;
+  int most_changes_;
   std::unique_ptr<Memory> memory_;
 };
 

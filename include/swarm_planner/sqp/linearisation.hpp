@@ -17,10 +17,10 @@ QpModels makeQpModels(const Parameters& parameters);
 /// Poses the QP of a problem at an iterate: the cost's gradient is exact there, its curvature that of the model, at
 /// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies
 /// on all control points of a segment (at the knots alone unless bounds.between_samples), tangent planes for the norm
-/// limits. Only what lies within `band` [m] of the iterate gets rows. `planes`, if given, takes down the half-spaces,
-/// as many as it has room for.
-void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp,
-               SegmentPlanes* planes = nullptr);
+/// limits. The planes of the last segment also hold for the control points of the stop that its end fixes. Only what
+/// lies within `band` [m] of the iterate gets rows, and of many bodies the nearest. `planes` takes down the
+/// half-spaces: see findSeparatingPlanes.
+void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes& planes);
 
 /// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the
 /// iterate alone, the next answer may swing sideways past the limit. `number` tells the answers of one problem apart.

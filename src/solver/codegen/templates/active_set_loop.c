@@ -320,12 +320,19 @@ static int qpc_find_violated(const qpc_tables* t, qpc_solver* s, double toleranc
   return qpc_scan(s, tolerance, violation);
 }
 
+/* Whether the caller would rather have what there is than more changes. `begun`: those that the guess took, which are no
+   more than it has rows. */
+static int qpc_is_spent(const qpc_solver* s, int begun) {
+  return s->most_changes > 0 && (s->iterations - begun >= s->most_changes || s->active_count == QPC_MAX_ACTIVE);
+}
+
 static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) {
   double violation, last = QPC_UNBOUNDED;
   int refinements = 0;
   s->ignored_count = 0;
   s->listed_count = s->listed_bounds = s->delicate = 0;
   int status = qpc_start(t, s);
+  const int begun = s->iterations;
   while (status == QPC_SOLVED) {
     const int id = qpc_find_violated(t, s, 1e-5 * tolerance, &violation);
     if (id < 0) {
@@ -337,6 +344,8 @@ static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) 
     qpc_row row;
     if (!qpc_load_row(t, s, id, &row)) {
       status = QPC_BAD_DATA;
+    } else if (qpc_is_spent(s, begun)) {
+      status = QPC_UNFINISHED;
     } else if (violation <= 1e3 * tolerance && qpc_is_faint(t, s, &row, violation, tolerance)) {
       if (s->ignored_count == QPC_ACTIVE_PADDED) break;
       s->ignored_id[s->ignored_count] = id;

@@ -130,6 +130,7 @@ static int qpc_run(const qpc_tables* t, qpc_solver* s, double tolerance) {
       s->iterations = 0;
       status = qpc_active_set(t, s, tolerance);
       if (status == QPC_SOLVED && !qpc_is_proven(t, s, tolerance)) status = QPC_CAP;
+      if (status == QPC_UNFINISHED) qpc_recover(t, s);
       for (int i = 0; i < s->active_count; ++i) qpc_mask_row(s, s->active_id[i], 0, s->offset[i]);
       if (guesses <= 0) break;
       s->warm_count = 0; /* a guess that led astray is not worth the other method */
@@ -161,11 +162,11 @@ static int qpc_check_and_run(const qpc_tables* t, qpc_solver* s) {
     }
     qpc_scale_rows(s, 1);
   }
-  if (status != QPC_SOLVED) return status;
+  if (status != QPC_SOLVED && status != QPC_UNFINISHED) return status;
   qpc_roll_out(t, s);
   return qpc_all_finite(&s->u[0][0], QPC_HORIZON * QPC_INPUTS) &&
                  qpc_all_finite(&s->x[0][0], (QPC_HORIZON + 1) * QPC_STATES)
-             ? QPC_SOLVED
+             ? status
              : QPC_BAD_DATA;
 }
 
@@ -174,7 +175,7 @@ int qpc_function(solve)(const qpc_tables* t, qpc_solver* s) {
   s->method = QPC_ACTIVE_SET;
   s->active_count = 0;
   s->status = qpc_check_and_run(t, s);
-  if (s->status != QPC_SOLVED) qpc_clear_result(s);
+  if (s->status != QPC_SOLVED && s->status != QPC_UNFINISHED) qpc_clear_result(s);
   return s->status;
 }
 

@@ -5,5 +5,6 @@ enum {
   QPC_INFEASIBLE = 2,    /* the hard rows and bounds contradict each other */
   QPC_CAP = 3,           /* a cap on changes, active rows or Newton steps was met, and no other method answered */
   QPC_NOT_CONVEX = 4,    /* the Hessian is not positive definite; of a sparse problem: not semidefinite */
-  QPC_WRONG_VERSION = 5  /* setup: the caller was compiled with the header of another description */
+  QPC_WRONG_VERSION = 5, /* setup: the caller was compiled with the header of another description */
+  QPC_UNFINISHED = 6     /* with stages: `most_changes` was met; the result keeps the model, but not every row */
 };

@@ -56,6 +56,7 @@ typedef struct {
 
   int32_t wanted_method;                             /* QPC_ACTIVE_SET, which falls back, or QPC_INTERIOR_POINT */
   double tolerance;                                  /* of the interior-point method: duality gap in the cost */
+  int32_t most_changes;                              /* beyond the guess; the answer then counts as it is. 0: finish */
 
   /* Result. */
   double u[QPC_HORIZON][QPC_INPUTS];

@@ -1,0 +1,105 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/sqp/separating_planes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "swarm_planner/problem/passing_side.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kReachableSpeed = 0.7;  // of max_speed, sideways, when judging whether a way out can be reached
+constexpr int kDropped = -1;             // in the place of a plane's segment
+
+/// The segments of an iterate as one body sees them.
+struct Passage {
+  std::array<SegmentPoints, kHorizon> relative;
+  std::array<std::optional<SegmentClearance>, kHorizon> near;  ///< set where the segment lies within the band
+  int deepest = -1;                                            ///< segment that violates the distance most
+};
+
+void findPassage(const UavProblem& problem, const MovingBody& body, const PlanPoints& points, double band,
+                 Passage& passage) {
+  double least = 0.0;
+  passage.deepest = -1;
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    passage.relative[i] = relativeConstrainedPoints(problem, points, k, body);
+    passage.near[i].reset();
+    if (isBeyond(body, passage.relative[i], band)) continue;
+    const SegmentClearance segment = segmentClearance(body, k, passage.relative[i]);
+    if (segment.clearance > band) continue;
+    passage.near[i] = segment;
+    if (segment.clearance >= least) continue;
+    least = segment.clearance;
+    passage.deepest = k;
+  }
+}
+
+void addPlanes(const UavProblem& problem, std::size_t index, const PlanPoints& points, double band,
+               SegmentPlanes& planes) {
+  const MovingBody& body = problem.bodies[index];
+  Passage passage;
+  findPassage(problem, body, points, band, passage);
+  std::optional<PassingSide> side;
+  if (passage.deepest > 0) {
+    const auto i = static_cast<std::size_t>(passage.deepest);
+    const double time = passage.deepest * problem.dt;
+    const Vector3 position = midpoint(points[i]);
+    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
+                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+  }
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!passage.near[i]) continue;
+    const double clearance = passage.near[i]->clearance;
+    HalfSpace half_space = passage.near[i]->half_space;
+    if (side && clearance < 0.0) half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
+    planes.push_back({index, k, half_space, clearance});
+  }
+}
+
+/// Keeps of each segment's planes those of the nearest bodies, and their order.
+void keepNearest(SegmentPlanes& planes) {
+  std::array<std::size_t, kHorizon + 1> begin{};  // of each segment's part of `ranked`
+  for (const SegmentPlane& plane : planes) ++begin[static_cast<std::size_t>(plane.segment) + 1];
+  if (*std::max_element(begin.begin(), begin.end()) <= kMostSegmentPlanes) return;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::array<std::size_t, kSegmentPlaneRoom> ranked;
+  std::array<std::size_t, kHorizon + 1> end = begin;
+  for (std::size_t i = 0; i < planes.size(); ++i) ranked[end[static_cast<std::size_t>(planes[i].segment)]++] = i;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    if (end[k] - begin[k] <= kMostSegmentPlanes) continue;
+    const auto first = ranked.begin() + static_cast<std::ptrdiff_t>(begin[k]);
+    const auto last = ranked.begin() + static_cast<std::ptrdiff_t>(end[k]);
+    const auto kept = first + kMostSegmentPlanes;
+    std::nth_element(first, kept, last, [&planes](std::size_t a, std::size_t b) {
+      if (planes[a].clearance != planes[b].clearance) return planes[a].clearance < planes[b].clearance;
+      return a < b;
+    });
+    std::for_each(kept, last, [&planes](std::size_t i) { planes[i].segment = kDropped; });
+  }
+  planes.erase(
+      std::remove_if(planes.begin(), planes.end(), [](const SegmentPlane& plane) { return plane.segment == kDropped; }),
+      planes.end());
+}
+
+}  // namespace
+
+void findSeparatingPlanes(const UavProblem& problem, const Trajectory& iterate, double band, SegmentPlanes& planes) {
+  planes.clear();
+  PlanPoints points;
+  findConstrainedPoints(problem, iterate, points);
+  const Box box = planBox(points);
+  for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
+    if (!problem.bodies[i].box().near(box, band)) continue;
+    if (planes.size() + kHorizon > kSegmentPlaneRoom) keepNearest(planes);
+    addPlanes(problem, i, points, band, planes);
+  }
+  keepNearest(planes);
+}
+
+}  // namespace swarm_planner
