@@ -48,4 +48,18 @@ void coastingPlan(const KinematicState& start, double epoch, double dt, Trajecto
   rollOut(start, plan);
 }
 
+double shareWithinJerk(const Trajectory& from, const Trajectory& to, double max_jerk) {
+  double share = 1.0;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    // The root of |from + share (to - from)|^2 = max_jerk^2.
+    const Vector3 change = to.jerks[k] - from.jerks[k];
+    const double room = max_jerk * max_jerk - from.jerks[k].squaredNorm();
+    if (room < 0.0 || to.jerks[k].squaredNorm() <= max_jerk * max_jerk) continue;
+    const double slope = from.jerks[k].dot(change);
+    const double squared_length = change.squaredNorm();
+    share = std::min(share, (std::sqrt(slope * slope + squared_length * room) - slope) / squared_length);
+  }
+  return share;
+}
+
 }  // namespace swarm_planner

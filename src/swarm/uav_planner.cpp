@@ -10,6 +10,7 @@
 #include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/place_beside.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
+#include "swarm_planner/swarm/planner_limits.hpp"
 #include "swarm_planner/swarm/right_of_way.hpp"
 #include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
@@ -17,39 +18,16 @@
 namespace swarm_planner {
 namespace {
 
-constexpr double kBoundSlack = 0.1;      // of a bound, by which a measured start may exceed it
-constexpr double kReserve = 0.002;       // of the bounds, that the solver stays inside
 constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
 constexpr double kSameShortfall = 1e-3;  // [m s]
 constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Changes of the active set per QP. Where a crowd leaves no way that keeps every distance a QP may take hundreds, all
-/// of them for rows that stay violated; the step as far as it has come is judged by the merit, as any other, and the
-/// next QP goes on from its active rows.
+/// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The step
+/// as far as it has come is judged by the merit, and the next QP goes on from its active rows.
 constexpr int kMostQpChanges = 100;
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
-
-CheckLimits makeCheckLimits(const Parameters& parameters, const Workspace* workspace) {
-  const LimitParameters& distances = parameters.limits;
-  CheckLimits limits;
-  limits.bounds = FlightBounds(parameters, workspace);
-  limits.bound_slack = kBoundSlack;
-  limits.workspace_slack = distances.tracking_margin;
-  limits.pair_horizontal = distances.pair_distance + 2.0 * distances.tracking_error;
-  limits.pair_vertical = distances.pair_distance_vertical + 2.0 * distances.tracking_error;
-  return limits;
-}
-
-/// Bounds for the solver, which keeps tangents to them at the samples: a little inside of what the check demands.
-FlightBounds reserved(FlightBounds bounds) {
-  bounds.max_speed *= 1.0 - kReserve;
-  bounds.max_acceleration *= 1.0 - kReserve;
-  bounds.max_thrust_acceleration *= 1.0 - kReserve;
-  bounds.min_vertical_thrust += kReserve * bounds.gravity.z();
-  return bounds;
-}
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
@@ -65,7 +43,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
       sqp_(std::make_unique<GeneratedSolver>(std::move(tables), kMostQpChanges)) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
-  problem_.bounds = reserved(limits_.bounds);
+  problem_.bounds = solverBounds(limits_.bounds);
   problem_.bodies.reserve(max_bodies);
   check_.obstacles.reserve(max_bodies);
   check_.uavs.reserve(2 * max_bodies);
@@ -205,6 +183,7 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   SqpResult result = sqp_.solve(problem_, plan_, record.active);
   if (!result.solved) plan_ = shifted_;
   if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
+  keepJerkLimit(record.start);
   record.guide.notePlan(plan_.knots.back().p, problem_);
   report.sqp_iterations += result.iterations;
   report.qp_iterations += result.qp_iterations;
@@ -232,6 +211,15 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     return {};
   }
   return verdict;
+}
+
+void UavPlanner::keepJerkLimit(const KinematicState& start) {
+  const double share = shareWithinJerk(shifted_, plan_, limits_.bounds.max_jerk);
+  if (share >= 1.0) return;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    plan_.jerks[k] = shifted_.jerks[k] + share * (plan_.jerks[k] - shifted_.jerks[k]);
+  }
+  rollOut(start, plan_);
 }
 
 void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {

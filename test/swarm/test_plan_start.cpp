@@ -3,6 +3,7 @@
 // Every plan begins where the UAV will be. If that is wrong, setpoints jump at every epoch.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/flight_problem.hpp"
@@ -167,6 +168,32 @@ TEST(CoastingPlan, KeepsItsVelocity) {
     const auto i = static_cast<std::size_t>(k);
     EXPECT_LT((plan.knots[i].p - Vector3(1 + kDt * k, 2, 3)).norm(), 1e-12);
     EXPECT_EQ(plan.knots[i].v, Vector3(1, 0, 0));
+  }
+}
+
+TEST(ShareWithinJerk, IsTheLargestThatKeepsTheLimit) {
+  Random random(11);
+  for (int n = 0; n < 300; ++n) {
+    Trajectory from = straightPlan(Vector3::Zero(), Vector3::Zero(), 0.0, kDt);
+    Trajectory to = from;
+    for (std::size_t k = 0; k < kHorizon; ++k) {
+      from.jerks[k] = random.vector(-5.0, 5.0);
+      to.jerks[k] = random.vector(-40.0, 40.0);
+    }
+    const double share = shareWithinJerk(from, to, 10.0);
+    ASSERT_GT(share, 0.0);
+    ASSERT_LT(share, 1.0);
+    const auto longest = [&](double s) {
+      double jerk = 0.0;
+      for (std::size_t k = 0; k < kHorizon; ++k) {
+        jerk = std::max(jerk, (from.jerks[k] + s * (to.jerks[k] - from.jerks[k])).norm());
+      }
+      return jerk;
+    };
+    EXPECT_NEAR(longest(share), 10.0, 1e-9);
+    EXPECT_GT(longest(share + 1e-3), 10.0);
+    EXPECT_EQ(shareWithinJerk(from, from, 10.0), 1.0);
+    EXPECT_EQ(shareWithinJerk(to, from, 10.0), 1.0) << "the first one is too long already";
   }
 }
 

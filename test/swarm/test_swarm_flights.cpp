@@ -77,6 +77,24 @@ TEST(Swarm, ArrivesAroundSharpCornersBehindATargetThatIsFarAhead) {
   }
 }
 
+// A target that is far ahead, for a fast UAV with no limit but its thrust: the solver asks for more jerk than may fly.
+TEST(Swarm, FastUavsSetOutAfterATargetThatIsFarAhead) {
+  const Vector3 end(80, 0, 10);
+  Mission mission = makeTestMission({Vector3(0, 0, 10)}, {end}, 0.0);
+  mission.parameters.limits.max_speed = 9.0;
+  mission.parameters.cost.zeta = 0.02;
+  PerfectFlight flight(mission);
+  flight.planner().setReference(0, {Vector3(0, 0, 10), end}, 80.0, 0.0);
+  double largest = 0.0;
+  for (int cycle = 0; cycle < 60; ++cycle) {
+    flight.cycle();
+    const CommittedMotion& motion = flight.planner().committed(0);
+    for (int k = 0; k < motion.pieces(); ++k) largest = std::max(largest, motion.jerk(k).norm());
+  }
+  EXPECT_LT((flight.vehicle(0).p - end).norm(), 0.5);
+  EXPECT_LT(largest, 1.001 * mission.parameters.limits.max_jerk);
+}
+
 /// Least gauge of the two newest motions, sampled densely.
 double leastPairGaugeOfPlans(const SwarmPlanner& planner) {
   const CommittedMotion& first = planner.committed(0);

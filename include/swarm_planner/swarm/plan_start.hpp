@@ -28,6 +28,10 @@ KinematicState carryDeviation(const KinematicState& planned, const KinematicStat
 void shiftPlan(const CommittedMotion& committed, const KinematicState& start, double epoch, double dt,
                Trajectory& plan);
 
+/// The largest share, at most 1, of the way from one plan's jerks to another's at which none is longer than `max_jerk`
+/// [m/s^3]. Jerks of the first plan that are too long count for nothing: no share makes them shorter for sure.
+double shareWithinJerk(const Trajectory& from, const Trajectory& to, double max_jerk);
+
 /// First guess of a UAV without a plan: zero jerk from a start without acceleration.
 void coastingPlan(const KinematicState& start, double epoch, double dt, Trajectory& plan);
 

@@ -54,6 +54,8 @@ class UavPlanner {
                        UavReport& report);
   /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
   void solveAlongGuide(ActiveRows& active, SqpResult& result);
+  /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.
+  void keepJerkLimit(const KinematicState& start);
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
   /// The workspace for this cycle: down to the ground for landing; for a UAV that is outside no farther than the motion
   /// flown takes it anyway, so that it may come back.
