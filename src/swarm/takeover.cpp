@@ -18,6 +18,7 @@ constexpr double kMoved = 0.5;     // a UAV so far from a motion does not fly it
 constexpr double kMovedSpeed = 1.5;     // nor one whose velocity differs so much [m/s]
 constexpr double kFootWindow = 5.0;     // of arc length to look for the foot in, beyond what can have been flown [m]
 constexpr double kSettlingTimes = 2.0;  // tracking_time, from the first plan on, until a vehicle may be on it
+constexpr double kAtRest = 0.25;        // slower UAVs rest [m/s]
 
 /// The parabola through the velocities of three measurements: acceleration and jerk at the last one.
 struct Parabola {
@@ -32,6 +33,9 @@ Parabola fit(const UavMeasurement& x0, const UavMeasurement& x1, const UavMeasur
   const Vector3 first = (x1.v - x0.v) / (x1.stamp - x0.stamp);
   const Vector3 second = (x2.v - x1.v) / (x2.stamp - x1.stamp);
   Parabola parabola;
+  // Motions end in a rest for good: a UAV that has rested does not set out without a planner, it has been pushed.
+  const bool has_rested = std::max(x0.v.norm(), x1.v.norm()) < kAtRest;
+  if (has_rested && x2.v.norm() > Takeover::kHovering) return parabola;
   parabola.j = limited(2.0 / (x2.stamp - x0.stamp) * (second - first), limits.max_jerk);
   parabola.a = limited(second + 0.5 * (x2.stamp - x1.stamp) * parabola.j, limits.max_acceleration);
   return parabola;

@@ -220,5 +220,19 @@ TEST(Takeover, SeesAccelerationInThreeMeasurements) {
   EXPECT_LT((flight.jerk(limits) - j).norm(), 1e-12);
 }
 
+// One that starts smoothly is as far on before it is as fast.
+TEST(ObservedFlight, DoesNotTakeAPushForAFlightThatGoesOn) {
+  const LimitParameters limits;
+  for (const double before : {0.1, 0.4}) {
+    ObservedFlight flight;
+    flight.add({true, 0.0, Vector3::Zero(), Vector3::Zero()});
+    flight.add({true, 0.3, Vector3::Zero(), Vector3(before, 0, 0)});
+    flight.add({true, 0.6, Vector3(0.3, 0, 0), Vector3(1.2, 0, 0)});
+    EXPECT_EQ(flight.state(limits).a.isZero(0.0), before < 0.25);
+    EXPECT_EQ(flight.jerk(limits).isZero(0.0), before < 0.25);
+    EXPECT_EQ(flight.state(limits).v, Vector3(1.2, 0, 0));
+  }
+}
+
 }  // namespace
 }  // namespace swarm_planner
