@@ -11,8 +11,9 @@
 namespace swarm_planner {
 namespace {
 
-// Its motions leave, over and over again; it hovers, and its odometry trembles a little. The other comes by when that has
-// shown: what happens in the first cycles of it is not covered (doc/safety.md), and some distances of its start collide.
+// Its motions leave, over and over again; it hovers, and its odometry trembles a little. The other comes by when that
+// has shown: what happens in the first cycles of it is not covered (doc/safety.md), and some distances of its start
+// collide.
 TEST(StrayingUav, ThatHoversInsteadOfFlyingIsKeptClearOf) {
   const Vector3 place(0, 0, 10);
   const Mission mission = makeTestMission({place, Vector3(-16, 0, 10)}, {Vector3(0, 60, 10), Vector3(14, 0, 10)}, 3.0);
