@@ -297,7 +297,7 @@ TEST_F(LinearisationTest, HasRowsWithinTheBandOnly) {
   };
   // All control points but those three of the first segment that the start fixes, and two of the stop; where two
   // segments have the same plane one row holds for the knot between them.
-  EXPECT_EQ(rowsBeside(kBand - 0.01), 3 * kHorizon);
+  EXPECT_EQ(rowsBeside(kBand - 0.01), 3 * kHorizon - 2);
   EXPECT_EQ(rowsBeside(kBand + 0.01), 0);
 }
 
