@@ -88,17 +88,6 @@ bool isRepeated(const SegmentPlane& before, const SegmentPlane& plane) {
          before.half_space.offset >= plane.half_space.offset - kSame;
 }
 
-/// The stop that follows the plan begins with two control points that its end fixes; the body goes on meanwhile.
-void addStopRows(const SegmentPlane& last, const MovingBody& body, Qp& qp) {
-  const Vector3 end = body.point(kHorizon - 1, 3);
-  const Vector3 step = end - body.point(kHorizon - 1, 2);
-  for (int j = 1; j <= 2; ++j) {
-    addControlPointRow(qp, kHorizon, j, last.half_space.n,
-                       last.half_space.offset + last.half_space.n.dot(end + j * step),
-                       kBodySource + 2 * body.identity());
-  }
-}
-
 void addBodyRows(const UavProblem& problem, const SegmentPlanes& planes, Qp& qp) {
   const auto first_point = static_cast<int>(firstConstrainedPoint(problem.bounds));
   for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
@@ -111,7 +100,6 @@ void addBodyRows(const UavProblem& problem, const SegmentPlanes& planes, Qp& qp)
                          half_space.offset + half_space.n.dot(body.point(plane->segment, j)),
                          kBodySource + 2 * body.identity());
     }
-    if (plane->segment == kHorizon - 1 && problem.bounds.between_samples) addStopRows(*plane, body, qp);
   }
 }
 
