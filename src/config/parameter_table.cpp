@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace swarm_planner {
-
 namespace {
 
 using Range = NumberRange;

@@ -15,6 +15,7 @@ constexpr double kCoarsest = 10.0;     // at least
 constexpr double kCellShare = 0.5;     // of the half width of the narrowest body
 constexpr double kLongestTime = 60.0;  // that bodies are predicted for [s]
 constexpr int kRings = 32;             // around an end that is not clear
+constexpr int kHalvings = 6;           // of the way from one to the next
 constexpr double kBeyond = 0.5;        // of the blocked stretch, by which a goal lies beyond it
 constexpr double kMargin = 2.0;        // of the region about start and goal, in their distance and what blocks
 constexpr int kMostAttempts = 5;
@@ -86,7 +87,8 @@ void GuidePlanner::gather(const GuideScene& scene, const GuideRequest& request, 
                                       [this](std::uint32_t i, double x) { return boxes_[i].min.x() < x; });
   for (auto i = first; i != by_x_.end() && boxes_[*i].min.x() <= region.max.x(); ++i) {
     const GuideBody& body = scene.bodies[*i];
-    if (body.uav == uav || !boxes_[*i].near(region, 0.0)) continue;
+    if (body.uav == uav || (body.uav != GuideBody::kNoUav && request.ignores_uavs)) continue;
+    if (!boxes_[*i].near(region, 0.0)) continue;
     if (grown(body.boxUntil(time), settings_.comfort).near(region, 0.0)) space_.add(body);
   }
 }
@@ -201,7 +203,15 @@ std::optional<Vector3> GuidePlanner::nearestClear(const TimedPoint& end, const V
       if (best && (candidate.p - from).norm() >= (*best - from).norm()) continue;
       if (space_.clearance(candidate) >= 0.0) best = candidate.p;
     }
-    if (best) return best;
+    if (!best) continue;
+    // The ring within was not clear there: as near as 1 / 2^kHalvings of a step.
+    Vector3 outside = *best;
+    Vector3 inside = ring == 0 ? outside : Vector3(end.p + (ring - 1.0) / ring * (outside - end.p));
+    for (int i = 0; ring > 0 && i < kHalvings; ++i) {
+      const Vector3 middle = 0.5 * (inside + outside);
+      (space_.clearance({middle, end.t}) >= 0.0 ? outside : inside) = middle;
+    }
+    return outside;
   }
   return std::nullopt;
 }
@@ -226,8 +236,10 @@ std::optional<GuidePlanner::Goal> GuidePlanner::goalOf(const GuideRequest& reque
 void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer) {
   ++searches_;
   const Blockage& blockage = blockages_[want.uav];
-  // With more distance than demanded, round all that is within reach, if there is such a way.
+  // With more distance than demanded, round all that is within reach, if there is such a way. Where the end itself is
+  // not clear, as near to it as may be.
   Attempt attempt;
+  attempt.comfort = !blockage.far_to_end;
   attempt.far = blockage.far_end != blockage.near_end;
   for (int i = 0; i < kMostAttempts; ++i) {
     const std::optional<Goal> goal = prepare(scene, request, want.uav, attempt);

@@ -133,6 +133,7 @@ void GuideDesk::fillRequest(UavRecord& record, GuideRequest& request) const {
                       ? kCatchUpSpeed * max_speed
                       : std::clamp(target.speed, kLeastSpeed * max_speed, max_speed);
   request.workspace = workspace_;
+  request.ignores_uavs = parameters_.limits.right_of_way && time_zero_ < record.traffic.jammed_until;
 }
 
 }  // namespace swarm_planner

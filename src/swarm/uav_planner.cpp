@@ -23,8 +23,8 @@ constexpr double kSameShortfall = 1e-3;  // [m s]
 constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The step
-/// as far as it has come is judged by the merit, and the next QP goes on from its active rows.
+/// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The
+/// step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
 constexpr int kMostQpChanges = 100;
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -135,8 +135,7 @@ Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const
   const KinematicState committed = record.motions.flown().at(epoch);
   record.task.is_quickest_stop = false;
   CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
-  // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on
-  // from.
+  // A start that tracking has moved too close, or measured there: the motion itself is still safe to go on from.
   const bool compensated = parameters_.limits.latency_compensation;
   if (!verdict.accepted() && record.planned && compensated && areApart(record.start, committed)) {
     record.start = committed;
@@ -359,10 +358,10 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
     report.reason = Reason::kOffPlan;
     report.deviation = record.off_plan_distance;
   }
-  const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
-  if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTraffic(record.traffic, report);
+  const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
+  if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   reportTask(record.task, report);
 }
 

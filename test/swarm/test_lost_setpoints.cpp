@@ -12,8 +12,8 @@ namespace swarm_planner {
 namespace {
 
 /// UAV 0 turns a corner, so that its motions differ.
-Mission roundACorner() {
-  Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(12, 0, 10)}, 3.0);
+Mission roundACorner(double speed) {
+  Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(12, 0, 10)}, speed);
   mission.scenario.uavs[0].reference.emplace_back(12, 40, 10);
   return mission;
 }
@@ -52,7 +52,7 @@ class LossyFlight {
 };
 
 TEST(LostSetpoints, LeaveNoGapWhereAllArrive) {
-  LossyFlight flight(roundACorner());
+  LossyFlight flight(roundACorner(3.0));
   for (int cycle = 0; cycle < 30; ++cycle) {
     flight.cycle(true);
     EXPECT_LT(flight.gap(), 1e-9);
@@ -61,7 +61,7 @@ TEST(LostSetpoints, LeaveNoGapWhereAllArrive) {
 
 // The vehicle flies its old motion on, to its stop; odometry is back when the two are far apart.
 TEST(LostSetpoints, AreNoticedByWhereTheVehicleIs) {
-  LossyFlight flight(roundACorner());
+  LossyFlight flight(roundACorner(4.5));
   flight.cycles(5);
   flight.cycle(false);
   for (int cycle = 0; cycle < 18; ++cycle) flight.cycle(true, false);
@@ -73,8 +73,9 @@ TEST(LostSetpoints, AreNoticedByWhereTheVehicleIs) {
 
 // Whatever is lost in a row, the newest motion stays so near to the vehicle that others keep clear of it.
 TEST(LostSetpoints, ManyInARowDoNotLeaveTheVehicleBehind) {
+  double widest = 0.0;
   for (int begin = 5; begin < 20; ++begin) {
-    LossyFlight flight(roundACorner());
+    LossyFlight flight(roundACorner(4.0));
     flight.cycles(begin);
     double worst = 0.0;
     for (int lost = 0; lost < 8; ++lost) {
@@ -82,8 +83,9 @@ TEST(LostSetpoints, ManyInARowDoNotLeaveTheVehicleBehind) {
       worst = std::max(worst, flight.gap());
     }
     EXPECT_LT(worst, Parameters().limits.tracking_margin) << "lost from cycle " << begin << " on";
-    EXPECT_GT(worst, 0.01) << "the motions hardly differ: this shows nothing";
+    widest = std::max(widest, worst);
   }
+  EXPECT_GT(widest, 0.05) << "the motions hardly differ: this shows nothing";
 }
 
 }  // namespace

@@ -45,9 +45,15 @@ int arrivedAfter(const Mission& mission, double seconds) {
   return arrivedOf(flight, mission);
 }
 
+/// Guides would lead round what blocks by themselves: without them it is the rule alone that is tested.
+Mission unguided(Mission mission) {
+  mission.parameters.limits.guide = false;
+  return mission;
+}
+
 TEST(RightOfWay, ThroughAnOpeningThatFitsOneBothWays) {
-  EXPECT_EQ(arrivedAfter(throughTheOpening(4), 60.0), 4);
-  EXPECT_LT(arrivedAfter(without(throughTheOpening(4)), 60.0), 4);
+  EXPECT_EQ(arrivedAfter(unguided(throughTheOpening(4)), 60.0), 4);
+  EXPECT_LT(arrivedAfter(without(unguided(throughTheOpening(4))), 60.0), 4);
 }
 
 TEST(RightOfWay, HeadOnInALaneOneBacksOut) {
@@ -62,7 +68,7 @@ TEST(RightOfWay, OfSeveralSentToOnePlaceOneGetsThereAndTheOthersParkBesideIt) {
   for (int i = 0; i < kUavs; ++i) {
     starts.emplace_back(10.0 * std::cos(2.0 * M_PI * i / kUavs), 10.0 * std::sin(2.0 * M_PI * i / kUavs), 10.0);
   }
-  const Mission mission = makeTestMission(starts, std::vector<Vector3>(kUavs, Vector3(0, 0, 10)), 4.0);
+  const Mission mission = unguided(makeTestMission(starts, std::vector<Vector3>(kUavs, Vector3(0, 0, 10)), 4.0));
   PerfectFlight flight(mission);
   flight.cycles(100);
   EXPECT_EQ(arrivedOf(flight, mission), 1);
@@ -82,7 +88,7 @@ TEST(RightOfWay, OfSeveralSentToOnePlaceOneGetsThereAndTheOthersParkBesideIt) {
 
   PerfectFlight heedless(without(mission));
   heedless.cycles(100);
-  EXPECT_EQ(arrivedOf(heedless, mission), 0);
+  for (const UavReport& uav : heedless.planner().report().uavs) EXPECT_NE(uav.reason, Reason::kParked);
 }
 
 TEST(RightOfWay, AUavThatHasArrivedMovesAsideAndComesBack) {
@@ -128,7 +134,7 @@ TEST(RightOfWay, ATargetInsideAnObstacleIsNoDeadlock) {
   flight.cycles(40);
   const std::array<Vector3, 2> places{flight.vehicle(0).p, flight.vehicle(1).p};
   for (int cycle = 0; cycle < 100; ++cycle) {
-    for (const UavReport& uav : flight.cycle().uavs) EXPECT_EQ(uav.reason, Reason::kNone);
+    for (const UavReport& uav : flight.cycle().uavs) EXPECT_FALSE(isTraffic(uav.reason));
   }
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT((flight.vehicle(i).p - places[i]).norm(), 0.1) << i;
 }
@@ -163,7 +169,7 @@ TEST(RightOfWay, LeavesFlightsAloneThatGetOn) {
 }
 
 TEST(RightOfWay, IsTheSameForAnyNumberOfThreads) {
-  Mission mission = throughTheOpening(4);
+  Mission mission = unguided(throughTheOpening(4));
   PerfectFlight alone(mission);
   mission.parameters.compute.threads = 3;
   PerfectFlight team(mission);

@@ -26,6 +26,9 @@ struct GuideRequest {
   FollowedPath path;                ///< from the UAV's foot on
   double reach = 0.0;               ///< how far ahead on the path counts [m]
   Workspace workspace;              ///< for its centre [m]
+  /// UAVs at rest count as nothing to go round: it has been held up in spite of guides, and others are to leave its
+  /// way.
+  bool ignores_uavs = false;
 };
 
 /// What is known of a way for a UAV.
