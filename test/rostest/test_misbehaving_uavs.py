@@ -130,11 +130,12 @@ class MisbehavingUavsTest(unittest.TestCase):
         self.uav2.spoil = lambda message: message
         self.assertNotIn(UavStatus.LOST, [uav.state for uav in self.of_uav2(statuses)])
 
-    def test_off_its_plan(self):
+    def test_does_not_follow(self):
         self.planner.status.clear()
+        begin = rospy.Time.now()
         self.uav2.spoil = Stuck()
-        wait_for(lambda: any('m far off its plan' in uav.reason for uav in self.of_uav2(self.planner.status.all())),
-                 'a UAV off its plan')
+        self.planner.wait_for_uav('uav2', lambda uav: 'does not follow its setpoints' in uav.reason, 'being told')
+        self.assertLess((rospy.Time.now() - begin).to_sec(), TOLD_WITHIN)
         self.uav2.spoil = lambda message: message
         self.planner.wait_for_uav('uav2', lambda uav: uav.state == UavStatus.TRACKING and not uav.reason, 'recovery')
 
