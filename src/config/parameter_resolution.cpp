@@ -56,7 +56,7 @@ class Resolution {
     if (!isSet("sampling_time")) time.sampling_time = samplingTime(limits.pair_distance / limits.max_speed);
     if (!isSet("cycle_period")) time.cycle_period = time.sampling_time;
     const double scale = time.sampling_time / TimeParameters().sampling_time;
-    if (!isSet("zeta")) parameters.cost.zeta = CostParameters().zeta * std::pow(scale, 6);
+    if (!isSet("zeta")) parameters.cost.zeta = CostParameters().zeta * std::pow(scale, 3);
     if (!isSet("velocity_time")) parameters.cost.velocity_time = CostParameters().velocity_time * scale;
     if (!isSet("pair_distance_vertical")) limits.pair_distance_vertical = limits.pair_distance;
     if (!isSet("tracking_margin")) {

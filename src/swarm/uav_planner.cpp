@@ -360,7 +360,8 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   }
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTraffic(record.traffic, report);
-  const bool stands = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
+  const bool is_slow = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
+  const bool stands = record.task.mode == FlightMode::kFlying && is_slow;
   if (report.reason == Reason::kNone && stands) report.reason = record.guide.reasonToStand();
   reportTask(record.task, report);
 }

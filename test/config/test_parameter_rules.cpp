@@ -47,7 +47,7 @@ TEST(ParameterRules, SamplingTimeIsDistanceOverSpeedInTwentiethsOfASecond) {
 TEST(ParameterRules, CycleAndWeightsFollowTheSamplingTime) {
   const Parameters parameters = resolved({}, {{"sampling_time", 0.15}});
   EXPECT_DOUBLE_EQ(parameters.time.cycle_period, 0.15);
-  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.05 / 64.0);
+  EXPECT_DOUBLE_EQ(parameters.cost.zeta, 0.05 / 8.0);
   EXPECT_DOUBLE_EQ(parameters.cost.velocity_time, 0.4);
 }
 

@@ -67,6 +67,7 @@ class CommandsUnseenTest(unittest.TestCase):
         self.command_while_lost(self.emergency_stop, UavStatus.STOPPED, 'stopped by command')
 
     def test_3_start(self):
+        self.fly()  # one that has been stopped does not take a hold
         self.hold()
         self.wait_for_states(UavStatus.HOLDING, 'holds by command', NAMES)
         self.lose()

@@ -49,8 +49,8 @@ ParameterMap parseParameterFile(const std::string& path, bool require_all, Fault
 /// The rules (documented in doc/parameters.md):
 ///   sampling_time = pair_distance / max_speed rounded down to 0.05 s, within [0.15, 0.3]
 ///   cycle_period = sampling_time
-///   zeta = 0.2 (sampling_time / 0.3 s)^6, so that the loop keeps its shape per sample
-///   velocity_time = sampling_time / 0.3 s * 1 s
+///   zeta = 0.05 (sampling_time / 0.3 s)^3, so that jerks do not grow faster than attitude follows
+///   velocity_time = sampling_time / 0.3 s * 0.8 s
 ///   pair_distance_vertical = pair_distance
 ///   tracking_margin = a tenth of the smaller of uav_radius*2 and pair_distance, within [0.02, 0.2]
 ///   pair_margin = a tenth of pair_distance, at most 0.2, and at least tracking_margin
