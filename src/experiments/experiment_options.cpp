@@ -76,6 +76,7 @@ std::vector<std::uint64_t> seedRange(const std::string& option, const std::strin
 }
 
 const std::map<std::string, ExperimentCommand> kCommands = {{"fly", ExperimentCommand::kFly},
+                                                            {"compare", ExperimentCommand::kCompare},
                                                             {"monte_carlo", ExperimentCommand::kMonteCarlo},
                                                             {"scaling", ExperimentCommand::kScaling},
                                                             {"circle_swap", ExperimentCommand::kCircleSwap},
@@ -102,6 +103,9 @@ class Parser {
  private:
   /// "--key=value" as "--key" "value".
   static std::vector<std::string> splitEquals(const std::vector<std::string>& arguments);
+  bool takesScenarios() const {
+    return options_.command == ExperimentCommand::kFly || options_.command == ExperimentCommand::kCompare;
+  }
   bool atEnd() const { return next_ == arguments_.size(); }
   std::string value(const std::string& option);
   std::vector<std::string> values(const std::string& option);
@@ -132,7 +136,7 @@ ExperimentOptions Parser::parse() {
       if (again && argument != "--without") throw OptionError(argument + ": given twice");
       seen_.push_back(argument);
       readOption(argument);
-    } else if (options_.command == ExperimentCommand::kFly) {
+    } else if (takesScenarios()) {
       options_.scenario_files.push_back(argument);
     } else {
       throw OptionError("unexpected argument \"" + argument + "\"");
@@ -215,8 +219,11 @@ void Parser::leaveOut(const std::string& names) {
 }
 
 void Parser::readStudyOption(const std::string& option) {
-  static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
-  if (option == "--uavs") {
+  static const std::vector<std::string> kNotYet = {"--as-paper"};
+  if (option == "--joint") {
+    requireCommand(option, {ExperimentCommand::kFly});
+    options_.mode = PlanningMode::kJoint;
+  } else if (option == "--uavs") {
     requireCommand(option, {ExperimentCommand::kMonteCarlo, ExperimentCommand::kScaling, ExperimentCommand::kCircleSwap,
                             ExperimentCommand::kMovingObstacles, ExperimentCommand::kRehearse});
     for (const std::string& count : values(option)) {
@@ -253,6 +260,7 @@ void Parser::check() {
     if (options_.scenario_files.empty()) throw OptionError("fly: no scenario file given");
     return;
   }
+  if (options_.command == ExperimentCommand::kCompare && !options_.scenario_files.empty()) return;
   if (options_.seeds.empty()) options_.seeds = {0};
   if (options_.command == ExperimentCommand::kScaling) {
     if (options_.uavs.empty()) options_.uavs = {6, 16, 32, 64};
@@ -277,6 +285,8 @@ Flies the swarm closed loop, planner and simulated vehicles, without ROS, and me
 
 commands:
   fly SCENARIO.yaml [SCENARIO.yaml ...]   the given scenario files
+  compare [SCENARIO.yaml ...]             Problem 1, all UAVs at once, against Problem 2, one after the other;
+                                          without a file: section 4 of the paper
   monte_carlo [--scenarios 100] [--uavs 6]
                                           random obstacles as in section 4.1 of the paper
   scaling [--uavs 6 16 32 64]             growing swarms as in section 4.2 of the paper
@@ -295,6 +305,7 @@ options:
                          segments   constraints hold at the samples alone, not between them
                          latency    measurements count as of the present, and plans start from them
                          avoidance  plans ignore obstacles and other UAVs
+  --joint              fly: plan by Problem 1, at most 8 UAVs
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

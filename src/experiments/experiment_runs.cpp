@@ -19,15 +19,28 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
   return given;
 }
 
+/// The runs of one scenario: for each seed one, or one by each problem.
+void addRuns(const Mission& mission, const std::string& source, const ExperimentOptions& options,
+             std::vector<ExperimentRun>& runs) {
+  std::vector<std::uint64_t> seeds = options.seeds;
+  if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
+  std::vector<PlanningMode> modes = {options.mode};
+  if (options.command == ExperimentCommand::kCompare) modes = {PlanningMode::kIterative, PlanningMode::kJoint};
+  for (const PlanningMode mode : modes) {
+    const std::optional<std::string> fault = planningModeFault(mode, mission.scenario.uavs.size());
+    if (fault) throw ConfigError(source + ": " + *fault);
+  }
+  for (const std::uint64_t seed : seeds) {
+    for (const PlanningMode mode : modes) runs.push_back({mission, seed, mode, {}});
+  }
+}
+
 std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const ParameterMap& given) {
   std::vector<ExperimentRun> runs;
   std::string faults;
   for (const std::string& file : options.scenario_files) {
     try {
-      const Mission mission = loadMission(file, given);
-      std::vector<std::uint64_t> seeds = options.seeds;
-      if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
-      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed, {}});
+      addRuns(loadMission(file, given), file, options, runs);
     } catch (const ConfigError& error) {
       faults += faults.empty() ? "" : "\n";
       faults += error.what();
@@ -39,7 +52,7 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
 
 /// Scenarios that a generator makes; the command's name stands for the file in faults.
 ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
-  return {makeMission(scenario, given, scenario.name), seed, {}};
+  return {makeMission(scenario, given, scenario.name), seed, PlanningMode::kIterative, {}};
 }
 
 }  // namespace
@@ -57,6 +70,10 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
   switch (options.command) {
     case ExperimentCommand::kFly:
       return flyRuns(options, given);
+    case ExperimentCommand::kCompare:
+      if (!options.scenario_files.empty()) return flyRuns(options, given);
+      addRuns(makeMission(paperSix(), given, "paper_six"), "paper_six", options, runs);
+      break;
     case ExperimentCommand::kMonteCarlo:
       for (const std::uint64_t seed : options.seeds) {
         runs.push_back(generatedRun(paperMonteCarlo(options.uavs.front(), seed), seed, given));

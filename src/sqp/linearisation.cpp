@@ -21,12 +21,8 @@ constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 20
 
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
 void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {
-  if (i == 3) {
-    qp.addRow(k + 1, Output::kPosition, n, d, source + 1);
-  } else if (k > 0) {
-    constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
-    qp.addRow(k, kOutputs[static_cast<std::size_t>(i)], n, d, source);
-  }
+  const std::optional<RowPlace> place = controlPointPlace(k, i);
+  if (place) qp.addRow(place->stage, place->output, n, d, source + place->source);
 }
 
 /// The plane that touches |value + centre| <= limit towards `value`, if `value` is at least `from` of the limit.
@@ -107,26 +103,14 @@ void findPassage(const UavProblem& problem, const MovingBody& body, const Trajec
 void addBodyRows(const UavProblem& problem, std::size_t index, const Trajectory& iterate, double band, Qp& qp,
                  SegmentPlanes* planes) {
   const MovingBody& body = problem.bodies[index];
-  Passage passage;
-  findPassage(problem, body, iterate, band, passage);
-  std::optional<PassingSide> side;
-  if (passage.deepest > 0) {
-    const auto i = static_cast<std::size_t>(passage.deepest);
-    const double time = passage.deepest * iterate.dt;
-    const Vector3 position = midpoint(constrainedPoints(problem, iterate, passage.deepest));
-    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
-                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
-  }
+  BodyPlanes body_planes;
+  findBodyPlanes(problem, body, iterate, band, body_planes);
   for (int k = 0; k < kHorizon; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (!passage.near[i]) continue;
-    HalfSpace half_space = passage.near[i]->half_space;
-    if (side && passage.near[i]->clearance < 0.0) {
-      half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
-    }
-    if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, half_space});
+    const std::optional<HalfSpace>& half_space = body_planes[static_cast<std::size_t>(k)];
+    if (!half_space) continue;
+    if (planes != nullptr && planes->size() < planes->capacity()) planes->push_back({index, k, *half_space});
     for (int j = static_cast<int>(firstConstrainedPoint(problem.bounds)); j < 4; ++j) {
-      addControlPointRow(qp, k, j, half_space.n, half_space.offset + half_space.n.dot(body.point(k, j)),
+      addControlPointRow(qp, k, j, half_space->n, half_space->offset + half_space->n.dot(body.point(k, j)),
                          kBodySource + 2 * body.identity());
     }
   }
@@ -172,6 +156,13 @@ void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
 
 }  // namespace
 
+std::optional<RowPlace> controlPointPlace(int k, int i) {
+  if (i == 3) return RowPlace{k + 1, Output::kPosition, 1};
+  if (k == 0) return {};
+  constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
+  return RowPlace{k, kOutputs[static_cast<std::size_t>(i)], 0};
+}
+
 QpModels makeQpModels(const Parameters& parameters) {
   const CostParameters& cost = parameters.cost;
   const double dt = parameters.time.sampling_time;
@@ -189,6 +180,29 @@ QpModels makeQpModels(const Parameters& parameters) {
   QpModels models{model, model};
   models.corner.along_weight = model.across_weight;
   return models;
+}
+
+void findBodyPlanes(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band,
+                    BodyPlanes& planes) {
+  Passage passage;
+  findPassage(problem, body, iterate, band, passage);
+  std::optional<PassingSide> side;
+  if (passage.deepest > 0) {
+    const auto i = static_cast<std::size_t>(passage.deepest);
+    const double time = passage.deepest * iterate.dt;
+    const Vector3 position = midpoint(constrainedPoints(problem, iterate, passage.deepest));
+    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
+                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+  }
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    planes[i].reset();
+    if (!passage.near[i]) continue;
+    planes[i] = passage.near[i]->half_space;
+    if (side && passage.near[i]->clearance < 0.0) {
+      planes[i] = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
+    }
+  }
 }
 
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes* planes) {

@@ -12,6 +12,7 @@
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
+#include "swarm_planner/swarm/joint_planner.hpp"
 #include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
@@ -34,7 +35,7 @@ std::vector<Vector3> homesOf(const Scenario& scenario) {
 
 class SwarmPlanner::Impl {
  public:
-  explicit Impl(const Mission& mission)
+  Impl(const Mission& mission, PlanningMode mode)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
         bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
@@ -58,8 +59,10 @@ class SwarmPlanner::Impl {
     foreign_bodies.reserve(uavs.size());
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
-    for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, 2 * uavs.size() + maxTracks(mission));
+    const std::size_t bodies = 2 * uavs.size() + maxTracks(mission);
+    if (mode == PlanningMode::kJoint) joint.emplace(parameters, mission.scenario.workspace, tables, bodies, uavs.size());
+    for (std::size_t member = 0; member < team.size() && !joint; ++member) {
+      planners.emplace_back(parameters, mission.scenario.workspace, tables, bodies);
     }
   }
 
@@ -229,6 +232,14 @@ class SwarmPlanner::Impl {
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
+    if (joint) {
+      joint->clear();
+      for (std::size_t i = 0; i < uavs.size(); ++i) {
+        if (isToPlan(i)) joint->add(i);
+      }
+      joint->plan(epoch, uavs, surroundings, report.uavs);
+      return;
+    }
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
@@ -323,12 +334,14 @@ class SwarmPlanner::Impl {
   SolveOrder order;
   ThreadTeam team;
   std::vector<UavPlanner> planners;  ///< one per member of the team
+  std::optional<JointPlanner> joint;  ///< instead of them
   std::size_t first = 0;             ///< the UAV that plans first
   std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
   std::vector<Vector3> places;       ///< of the UAVs that are measured
 };
 
-SwarmPlanner::SwarmPlanner(const Mission& mission) : impl_(std::make_unique<Impl>(mission)) {}
+SwarmPlanner::SwarmPlanner(const Mission& mission, PlanningMode mode)
+    : impl_(std::make_unique<Impl>(mission, mode)) {}
 SwarmPlanner::~SwarmPlanner() = default;
 SwarmPlanner::SwarmPlanner(SwarmPlanner&&) noexcept = default;
 SwarmPlanner& SwarmPlanner::operator=(SwarmPlanner&&) noexcept = default;

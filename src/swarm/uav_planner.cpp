@@ -65,21 +65,84 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
 
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
+  if (begin(uav, epoch, record, surroundings, report)) {
+    report.reason = flyOn(uav, epoch, record, surroundings, nullptr, report);
+    conclude(uav, epoch, record, surroundings, report);
+  }
+  report.solve_time = stopwatch.elapsed();
+}
+
+bool UavPlanner::begin(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                       UavReport& report) {
+  lookAround(uav, epoch, record, surroundings);
+  if (!rest(uav, epoch, record, surroundings)) return true;
+  poseProblem(uav, epoch, record, surroundings);
+  conclude(uav, epoch, record, surroundings, report);
+  return false;
+}
+
+void UavPlanner::lookAround(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
   surroundings.collect(uav, check_);
   committed_ = record.motions.flown().at(epoch).p;
   has_proposal_ = false;
   flies_whole_plan_ = false;
   setWorkspace(record);
   limitDoubts(epoch, record.motions.flown());
-  if (rest(uav, epoch, record, surroundings)) {
-    poseProblem(uav, epoch, record, surroundings);
-  } else {
-    report.reason = flyOn(uav, epoch, record, surroundings, report);
-  }
+}
+
+void UavPlanner::conclude(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                          UavReport& report) {
   surroundings.replaceMotions(uav, record.motions.newest(),
                               record.motions.olderInFlight(epoch, parameters_.time.cycle_period));
   fillReport(epoch, record, report);
-  report.solve_time = stopwatch.elapsed();
+}
+
+void UavPlanner::pose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                      const std::vector<bool>& solved_together, Trajectory& start_plan) {
+  poseProblem(uav, epoch, record, surroundings);
+  std::vector<MovingBody>& bodies = problem_.bodies;
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(),
+                              [&](const MovingBody& body) {
+                                const std::optional<std::size_t> other = Surroundings::uavOf(body);
+                                return other && *other < solved_together.size() && solved_together[*other];
+                              }),
+               bodies.end());
+  shift(epoch, record);
+  guessActiveRows(epoch, record);
+  record.task.is_quickest_stop = false;
+  start_plan = plan_;
+}
+
+const CommittedMotion& UavPlanner::draft(const Trajectory& plan) {
+  StopManoeuvre stop;
+  plan_ = plan;
+  planStop(plan.knots.back(), plan.dt, limits_.bounds, stop);
+  motion_.assign(plan, stop);
+  return motion_;
+}
+
+bool UavPlanner::passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
+  lookAround(uav, epoch, record, surroundings);
+  return judge(uav, surroundings, plan_).accepted();
+}
+
+void UavPlanner::commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                             const SqpResult& result, UavReport& report) {
+  takeResult(result, report);
+  flies_whole_plan_ = true;
+  record.motions.commit(motion_);
+  record.planned = true;
+  report.reason = Reason::kNone;
+  surroundings.collect(uav, problem_);
+  conclude(uav, epoch, record, surroundings, report);
+}
+
+void UavPlanner::complete(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                          const SqpResult& result, UavReport& report) {
+  lookAround(uav, epoch, record, surroundings);
+  surroundings.collect(uav, problem_);
+  report.reason = flyOn(uav, epoch, record, surroundings, result.solved ? &result : nullptr, report);
+  conclude(uav, epoch, record, surroundings, report);
 }
 
 void UavPlanner::setWorkspace(const UavRecord& record) {
@@ -98,10 +161,11 @@ void UavPlanner::setWorkspace(const UavRecord& record) {
 }
 
 Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
-                         UavReport& report) {
+                         const SqpResult* joint, UavReport& report) {
   const KinematicState committed = record.motions.flown().at(epoch);
   record.task.is_quickest_stop = false;
-  CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
+  CheckVerdict verdict = joint != nullptr ? decide(uav, epoch, record, surroundings, *joint, report)
+                                          : propose(uav, epoch, record, surroundings, report);
   // A start that tracking has moved too close, or that is measured there: the motion itself is still safe to go on
   // from.
   const bool compensated = parameters_.limits.latency_compensation;
@@ -140,20 +204,32 @@ bool UavPlanner::rest(std::size_t uav, double epoch, UavRecord& record, const Su
 CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                                  UavReport& report) {
   poseProblem(uav, epoch, record, surroundings);
+  shift(epoch, record);
+  guessActiveRows(epoch, record);
+  const SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  if (!result.solved) plan_ = shifted_;
+  return decide(uav, epoch, record, surroundings, result, report);
+}
+
+void UavPlanner::shift(double epoch, UavRecord& record) {
   if (record.planned) {
     shiftPlan(record.motions.flown(), record.start, epoch, problem_.dt, shifted_);
   } else {
     coastingPlan(record.start, epoch, problem_.dt, shifted_);
   }
   plan_ = shifted_;
-  guessActiveRows(epoch, record);
-  const SqpResult result = sqp_.solve(problem_, plan_, record.active);
+}
+
+void UavPlanner::takeResult(const SqpResult& result, UavReport& report) {
   report.sqp_iterations += result.iterations;
   report.qp_iterations += result.qp_iterations;
   report.solved = result.solved;
-  if (!result.solved) plan_ = shifted_;
-
   report.max_slack = result.max_violation;
+}
+
+CheckVerdict UavPlanner::decide(std::size_t uav, double epoch, const UavRecord& record,
+                                const Surroundings& surroundings, const SqpResult& result, UavReport& report) {
+  takeResult(result, report);
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
   flies_whole_plan_ = verdict.accepted();
   if (flies_whole_plan_) return verdict;

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "swarm_planner/swarm/planning_mode.hpp"
+
 namespace swarm_planner {
 
 /// The command line cannot be used; what() says what is wrong and what was expected.
@@ -17,12 +19,12 @@ class OptionError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class ExperimentCommand { kHelp, kFly, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles, kRehearse };
+enum class ExperimentCommand { kHelp, kFly, kCompare, kMonteCarlo, kScaling, kCircleSwap, kMovingObstacles, kRehearse };
 
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
   ExperimentCommand command = ExperimentCommand::kHelp;
-  std::vector<std::string> scenario_files;  ///< fly
+  std::vector<std::string> scenario_files;  ///< fly, compare; of compare empty for paperSix()
   std::vector<int> uavs;                    ///< the others; scaling: several
   double radius = 10.0;                     ///< circle_swap [m]
   int obstacles = 8;                        ///< moving_obstacles
@@ -33,6 +35,7 @@ struct ExperimentOptions {
   std::vector<std::uint64_t> seeds;
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
+  PlanningMode mode = PlanningMode::kIterative;  ///< fly --joint: Problem 1
   std::optional<int> threads;  ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;

@@ -14,6 +14,7 @@ namespace swarm_planner {
 struct ExperimentRun {
   Mission mission;
   std::uint64_t seed = 0;
+  PlanningMode mode = PlanningMode::kIterative;
   std::optional<Workspace> goals;  ///< a rehearsal: where UAVs get random goals, one after the other
 };
 

@@ -11,6 +11,7 @@
 #include "swarm_planner/experiments/fault_summary.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
+#include "swarm_planner/swarm/planning_mode.hpp"
 
 namespace swarm_planner {
 
@@ -19,6 +20,7 @@ struct RunResult {
   std::string scenario;
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
+  PlanningMode mode = PlanningMode::kIterative;
   SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/generated_solver.hpp"
@@ -26,15 +27,44 @@ class UavPlanner {
   /// A motion for `epoch` from record.start on. `uav`: its index in `surroundings`, which learns of the new motion.
   void plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
+  // The same in steps, for a solver that plans for several UAVs at once, each with a UavPlanner of its own.
+
+  /// Looks at what there is to keep clear of. False if the UAV rests and needs no plan: that is reported.
+  bool begin(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
+  /// Poses the problem without the bodies of the UAVs that are solved with it, and a plan to start from.
+  void pose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+            const std::vector<bool>& solved_together, Trajectory& start_plan);
+  const UavProblem& problem() const { return problem_; }
+  /// The motion of the solver's plan, its stop included; not checked.
+  const CommittedMotion& draft(const Trajectory& plan);
+  /// Whether the draft passes the check among what the surroundings hold now.
+  bool passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
+  /// Commits the draft, which has passed.
+  void commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                   const SqpResult& result, UavReport& report);
+  /// Goes on from the solver's plan as plan() does from its own.
+  void complete(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, const SqpResult& result,
+                UavReport& report);
+
  private:
-  /// A new plan, or what flies without one; the reason why it does.
-  Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings, UavReport& report);
+  void lookAround(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
+  /// A new plan, or what flies without one; the reason why it does. `joint`: how the plan at hand was found, if it was.
+  Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+               const SqpResult* joint, UavReport& report);
+  /// Tells the surroundings and the operator what the UAV does.
+  void conclude(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
+  /// The plan to start from: that of the motion flown, moved on.
+  void shift(double epoch, UavRecord& record);
   /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
   /// if it is not, or there is none: a plan is needed then.
   bool rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
   /// Solves from record.start and leaves the motion of the longest step towards the solution that passes the check.
   CheckVerdict propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                        UavReport& report);
+  static void takeResult(const SqpResult& result, UavReport& report);
+  /// Leaves the motion of the longest step towards plan_ that passes the check.
+  CheckVerdict decide(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings,
+                      const SqpResult& result, UavReport& report);
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
   /// The workspace for this cycle: down to the ground for landing; for a UAV that is outside no farther than the motion
   /// flown takes it anyway, so that it may come back.
