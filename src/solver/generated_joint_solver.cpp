@@ -7,6 +7,7 @@
 
 #include "generated_qp.hpp"
 #include "joint_qp.h"
+#include "swarm_planner/solver/generated_solver.hpp"
 #include "swarm_planner/solver/instruction_set.hpp"
 
 namespace swarm_planner {
@@ -53,18 +54,22 @@ bool meansTheSame(const ActiveRow& guess, const PairRow& row) {
 }  // namespace
 
 struct GeneratedJointSolver::Memory {
+  explicit Memory(const std::vector<QpModel>& of_models) : single(std::make_shared<GeneratedTables>(of_models)) {}
+
   std::vector<QpModel> models;
   std::vector<std::unique_ptr<joint_qp_tables>> tables_of_model;
-  std::vector<std::size_t> members;             ///< UAVs of the component at hand, in the order of the copies
-  std::array<int, kMostJointUavs> copy_of{};    ///< of each UAV of it
-  std::vector<std::size_t> pair_row_of;         ///< of each coupling
+  std::vector<std::size_t> members;           ///< UAVs of the component at hand, in the order of the copies
+  std::array<int, kMostJointUavs> copy_of{};  ///< of each UAV of it
+  std::vector<std::size_t> pair_row_of;       ///< of each coupling
   std::vector<ActiveRow> guessed_pairs;
   std::array<const joint_qp_tables*, kMostJointUavs> tables{};  ///< of each copy
   joint_qp_solver solver;
+  GeneratedSolver single;  ///< of UAVs that no row couples
+  QpSolution alone;
   std::array<std::vector<ActiveRow>, kMostJointUavs> row_of_slot;  ///< what each row is, without multiplier
 };
 
-GeneratedJointSolver::GeneratedJointSolver(const std::vector<QpModel>& models) : memory_(new Memory) {
+GeneratedJointSolver::GeneratedJointSolver(const std::vector<QpModel>& models) : memory_(new Memory(models)) {
   memory_->models = models;
   for (const QpModel& model : models) {
     const auto parameters = generatedParameters<joint_qp_parameters>(model);
@@ -100,13 +105,30 @@ QpStatus GeneratedJointSolver::solve(const JointQp& qp, JointQpSolution& solutio
       m.members.push_back(i);
     }
     if (m.members.empty()) continue;
-    const bool loaded = load(qp, solution);
-    if (!loaded || functions().solve(m.tables.data(), &m.solver) != JOINT_QP_SOLVED) {
+    if (!(m.members.size() == 1 ? solveAlone(qp, solution) : solveTogether(qp, solution))) {
       solution.status = QpStatus::kNoAnswer;
     }
-    if (loaded) store(qp, solution);
   }
   return solution.status;
+}
+
+bool GeneratedJointSolver::solveAlone(const JointQp& qp, JointQpSolution& solution) {
+  const std::size_t i = memory_->members.front();
+  QpSolution& alone = memory_->alone;
+  alone.active = solution.active[i];
+  const bool solved = memory_->single.solve(*qp.uavs[i], alone) == QpStatus::kSolved;
+  solution.iterations += alone.iterations;
+  solution.max_slack = std::max(solution.max_slack, alone.max_slack);
+  solution.jerks[i] = alone.jerks;
+  solution.active[i] = alone.active;
+  return solved;
+}
+
+bool GeneratedJointSolver::solveTogether(const JointQp& qp, JointQpSolution& solution) {
+  if (!load(qp, solution)) return false;
+  const bool solved = functions().solve(memory_->tables.data(), &memory_->solver) == JOINT_QP_SOLVED;
+  store(qp, solution);
+  return solved;
 }
 
 void GeneratedJointSolver::store(const JointQp& qp, JointQpSolution& solution) const {
@@ -163,7 +185,7 @@ void GeneratedJointSolver::loadPairRows(const JointQp& qp) {
     const Vector3 second = -(qp.uavs[row.second]->axes.transpose() * row.n);
     const double* normals[] = {first.data(), second.data()};
     const int coupling = joint_qp_add_coupling(&s, static_cast<int>(row.output), row.stage, copies, normals, row.d,
-                                             JOINT_QP_PENALTY_SLACK);
+                                               JOINT_QP_PENALTY_SLACK);
     memory_->pair_row_of.push_back(number);
     const std::vector<ActiveRow>& guess = memory_->guessed_pairs;
     const auto known = std::find_if(guess.begin(), guess.end(),

@@ -8,8 +8,8 @@
 
 namespace swarm_planner {
 
-// What the solvers generated from planner_qp.yaml and joint_qp.yaml have in common: the model of one UAV, under names of
-// their own.
+// What the solvers generated from planner_qp.yaml and joint_qp.yaml have in common: the model of one UAV, under names
+// of their own.
 
 /// The model's numbers as the parameters of a generated solver.
 template <class GeneratedParameters>

@@ -75,7 +75,8 @@ const GeneratedTables::Entry* GeneratedTables::find(const QpModel& model) const 
 
 struct GeneratedSolver::Memory {
   planner_qp_solver solver;
-  std::vector<ActiveRow> row_of_slot = std::vector<ActiveRow>(PLANNER_QP_ROW_SLOTS);  ///< what each of the solver's rows is, without multiplier
+  std::vector<ActiveRow> row_of_slot =
+      std::vector<ActiveRow>(PLANNER_QP_ROW_SLOTS);  ///< what each of the solver's rows is, without multiplier
   const GeneratedTables::Entry* initialised_for = nullptr;
 };
 

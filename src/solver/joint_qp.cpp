@@ -7,9 +7,8 @@
 namespace swarm_planner {
 
 void ActivePairRows::shift(int stages) {
-  rows.erase(
-      std::remove_if(rows.begin(), rows.end(), [stages](const ActiveRow& row) { return row.stage <= stages; }),
-      rows.end());
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [stages](const ActiveRow& row) { return row.stage <= stages; }),
+             rows.end());
   for (ActiveRow& row : rows) row.stage = static_cast<std::int8_t>(row.stage - stages);
 }
 

@@ -113,7 +113,8 @@ void JointSqpSolver::addPairRows(const JointProblem& problem, std::size_t index,
 }
 
 /// UAVs that may meet on some way between their plans and the QP's answers, and those with rows in common.
-JointComponents JointSqpSolver::findMovingComponents(const JointProblem& problem, const std::vector<Trajectory>& answer) {
+JointComponents JointSqpSolver::findMovingComponents(const JointProblem& problem,
+                                                     const std::vector<Trajectory>& answer) {
   JointComponents components = findComponents(qp_);
   for (std::size_t i = 0; i < answer.size(); ++i) {
     areas_[i] = motions_[i].box;

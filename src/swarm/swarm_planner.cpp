@@ -60,7 +60,8 @@ class SwarmPlanner::Impl {
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
     const std::size_t bodies = 2 * uavs.size() + maxTracks(mission);
-    if (mode == PlanningMode::kJoint) joint.emplace(parameters, mission.scenario.workspace, tables, bodies, uavs.size());
+    if (mode == PlanningMode::kJoint)
+      joint.emplace(parameters, mission.scenario.workspace, tables, bodies, uavs.size());
     for (std::size_t member = 0; member < team.size() && !joint; ++member) {
       planners.emplace_back(parameters, mission.scenario.workspace, tables, bodies);
     }
@@ -333,15 +334,14 @@ class SwarmPlanner::Impl {
   FlightDirector director;
   SolveOrder order;
   ThreadTeam team;
-  std::vector<UavPlanner> planners;  ///< one per member of the team
+  std::vector<UavPlanner> planners;   ///< one per member of the team
   std::optional<JointPlanner> joint;  ///< instead of them
-  std::size_t first = 0;             ///< the UAV that plans first
-  std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
-  std::vector<Vector3> places;       ///< of the UAVs that are measured
+  std::size_t first = 0;              ///< the UAV that plans first
+  std::vector<Reason> judged;         ///< of each UAV's measurement in this cycle
+  std::vector<Vector3> places;        ///< of the UAVs that are measured
 };
 
-SwarmPlanner::SwarmPlanner(const Mission& mission, PlanningMode mode)
-    : impl_(std::make_unique<Impl>(mission, mode)) {}
+SwarmPlanner::SwarmPlanner(const Mission& mission, PlanningMode mode) : impl_(std::make_unique<Impl>(mission, mode)) {}
 SwarmPlanner::~SwarmPlanner() = default;
 SwarmPlanner::SwarmPlanner(SwarmPlanner&&) noexcept = default;
 SwarmPlanner& SwarmPlanner::operator=(SwarmPlanner&&) noexcept = default;

@@ -2,15 +2,17 @@
 // The linked solver for several UAVs at once, on random problems of its structure. Where every other UAV flies its part
 // of the optimum, each one's part is the optimum of a problem of its own, in which the couplings are rows with the same
 // multipliers: that is checked by the conditions of a single UAV's problem.
-#include "joint_qp.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "joint_qp.h"
 #include "solver/planner_problem.hpp"
 #include "swarm_planner/solver/instruction_set.hpp"
 
@@ -31,8 +33,8 @@ struct Functions {
 
 /// Those that this machine runs, the widest one last.
 std::vector<Functions> functions() {
-  std::vector<Functions> sets{
-      {"baseline", joint_qp_setup_baseline, joint_qp_init_baseline, joint_qp_init_copy_baseline, joint_qp_solve_baseline}};
+  std::vector<Functions> sets{{"baseline", joint_qp_setup_baseline, joint_qp_init_baseline, joint_qp_init_copy_baseline,
+                               joint_qp_solve_baseline}};
 #if defined(__x86_64__)
   const InstructionSet best = bestInstructionSet();
   if (best != InstructionSet::kBaseline) {
@@ -125,9 +127,9 @@ class JointQp : public ::testing::Test {
     solver_->coupling_count = 0;
     for (const Coupling& c : problem.couplings) {
       const double* normals[] = {c.normal[0].data(), c.normal[1].data()};
-      ASSERT_GE(joint_qp_add_coupling(solver_.get(), c.output, c.stage, c.copy, normals, c.offset,
-                                      JOINT_QP_PENALTY_SLACK),
-                0);
+      ASSERT_GE(
+          joint_qp_add_coupling(solver_.get(), c.output, c.stage, c.copy, normals, c.offset, JOINT_QP_PENALTY_SLACK),
+          0);
     }
   }
 
@@ -149,11 +151,10 @@ class JointQp : public ::testing::Test {
       const Coupling& c = joint.couplings[i];
       if (c.copy[0] != uav && c.copy[1] != uav) continue;
       const int own = c.copy[0] == uav ? 0 : 1;
-      const double others = c.normal[1 - own].dot(valueOf(joint.uavs[at(c.copy[1 - own])].model, c.output,
-                                                          solver_->copy[c.copy[1 - own]].x[c.stage]));
+      const double others = c.normal[1 - own].dot(
+          valueOf(joint.uavs[at(c.copy[1 - own])].model, c.output, solver_->copy[c.copy[1 - own]].x[c.stage]));
       id_of[i] = next++;
-      problem.rows.push_back(
-          {c.output, c.stage, PLANNER_QP_PENALTY_SLACK, c.normal[own], c.offset - others, id_of[i]});
+      problem.rows.push_back({c.output, c.stage, PLANNER_QP_PENALTY_SLACK, c.normal[own], c.offset - others, id_of[i]});
     }
     for (int i = 0; i < solver_->active_count; ++i) {
       const int id = solver_->active_id[i];
@@ -239,6 +240,74 @@ TEST_F(JointQp, RandomProblemsAreSolvedToTheOptimumOrRefused) {
             << coupled / kProblems << " of them couplings\n";
   EXPECT_LE(refused, kProblems / 5);
   EXPECT_GT(coupled, 5 * kProblems);
+}
+
+// A vehicle's computer may have any of the instruction sets: none may fly other plans.
+TEST_F(JointQp, EveryInstructionSetGivesTheSameAnswer) {
+  for (int number = 0; number < 5; ++number) {
+    Random random(static_cast<std::uint64_t>(2000 + number));
+    const std::vector<planner_qp_parameters> models(3, randomPlannerModel(random));
+    JointProblem problem = randomJointProblem(models, 60, random);
+    std::vector<double> first;
+    for (const Functions& set : functions()) {
+      ASSERT_NO_FATAL_FAILURE(setUp(set, models));
+      ASSERT_NO_FATAL_FAILURE(load(problem));
+      ASSERT_EQ(solve(), JOINT_QP_SOLVED) << set.name;
+      if (first.empty()) first = inputs();
+      EXPECT_LE(difference(inputs(), first), 1e-6) << set.name;
+    }
+  }
+}
+
+// Without couplings nobody's plan depends on another's: each is what the solver of one UAV answers.
+TEST_F(JointQp, UncoupledUavsGetWhatEachGetsAlone) {
+  const auto tables = std::make_unique<planner_qp_tables>();
+  const auto alone = std::make_unique<planner_qp_solver>();
+  for (int number = 0; number < 10; ++number) {
+    Random random(static_cast<std::uint64_t>(3000 + number));
+    const std::vector<planner_qp_parameters> models(4, randomPlannerModel(random));
+    JointProblem problem = randomJointProblem(models, 0, random);
+    ASSERT_NO_FATAL_FAILURE(setUp(functions().front(), models));
+    ASSERT_NO_FATAL_FAILURE(load(problem));
+    ASSERT_EQ(solve(), JOINT_QP_SOLVED);
+    ASSERT_EQ(planner_qp_setup_baseline(tables.get(), &models[0], PLANNER_QP_HASH), PLANNER_QP_SOLVED);
+    for (int uav = 0; uav < 4; ++uav) {
+      planner_qp_init_baseline(alone.get(), tables.get());
+      ::swarm_planner::load(problem.uavs[at(uav)], *alone);
+      ASSERT_EQ(planner_qp_solve_baseline(tables.get(), alone.get()), PLANNER_QP_SOLVED);
+      if (alone->method != PLANNER_QP_ACTIVE_SET) continue;
+      for (int k = 0; k < kHorizon; ++k) {
+        for (int i = 0; i < JOINT_QP_INPUTS; ++i) {
+          EXPECT_NEAR(solver_->copy[uav].u[k][i], alone->u[k][i], 1e-6 * (1.0 + std::abs(alone->u[k][i])));
+        }
+      }
+    }
+  }
+}
+
+TEST_F(JointQp, BadDataGetAStatusAndNoNumbers) {
+  Random random(1);
+  const std::vector<planner_qp_parameters> models(2, randomPlannerModel(random));
+  JointProblem problem = randomJointProblem(models, 4, random);
+  const auto expectRefused = [&](const std::function<void(joint_qp_solver&)>& spoil, const char* what) {
+    setUp(functions().back(), models);
+    load(problem);
+    spoil(*solver_);
+    EXPECT_EQ(solve(), JOINT_QP_BAD_DATA) << what;
+    for (const double u : inputs()) EXPECT_EQ(u, 0.0) << what;
+  };
+  expectRefused([](joint_qp_solver& s) { s.coupling_offset[1] = std::nan(""); }, "offset");
+  expectRefused([](joint_qp_solver& s) { s.coupling_normal[1][2][3] = HUGE_VAL; }, "normal");
+  expectRefused([](joint_qp_solver& s) { s.coupling_copy[1][0] = 2; }, "a copy that is not in use");
+  expectRefused([](joint_qp_solver& s) { s.coupling_copy[1][0] = s.coupling_copy[0][0]; }, "one copy twice");
+  expectRefused([](joint_qp_solver& s) { s.coupling_index[0] = kHorizon; }, "stage");
+  expectRefused([](joint_qp_solver& s) { s.copy[1].x0[4] = std::nan(""); }, "start");
+  expectRefused([](joint_qp_solver& s) { s.coupling_penalty[0] = 7; }, "penalty");
+  const int copies[] = {0, 1};
+  const double n[] = {1.0, 0.0, 0.0};
+  const double* normals[] = {n, n};
+  EXPECT_EQ(joint_qp_add_coupling(solver_.get(), JOINT_QP_OUTPUT_POSITION, 0, copies, normals, 0.0, 1), -1);
+  EXPECT_EQ(joint_qp_add_coupling(solver_.get(), JOINT_QP_OUTPUT_POSITION, kHorizon + 1, copies, normals, 0.0, 1), -1);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ struct ExperimentOptions {
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
   PlanningMode mode = PlanningMode::kIterative;  ///< fly --joint: Problem 1
-  std::optional<int> threads;  ///< of the planner
+  std::optional<int> threads;                    ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;
   std::optional<std::string> parameter_file;

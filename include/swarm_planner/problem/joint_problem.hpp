@@ -10,9 +10,9 @@ namespace swarm_planner {
 
 /// Two UAVs of a joint problem that are to keep apart, eq. (14), both of them moving.
 struct UavPair {
-  std::size_t first = 0, second = 1;          ///< indices in JointProblem::uavs, first < second
-  double horizontal = 0.0, vertical = 0.0;    ///< semi-axes of the pair ellipsoid [m]
-  double margin = 0.0;                        ///< of them, that may be waived at a start that is too close [m]
+  std::size_t first = 0, second = 1;        ///< indices in JointProblem::uavs, first < second
+  double horizontal = 0.0, vertical = 0.0;  ///< semi-axes of the pair ellipsoid [m]
+  double margin = 0.0;                      ///< of them, that may be waived at a start that is too close [m]
 
   /// The second one's motion as the first one has to keep clear of it. The motion must outlive the body.
   MovingBody bodyOfSecond(const KinematicState& first_start, const PredictedMotion& second_motion) const;

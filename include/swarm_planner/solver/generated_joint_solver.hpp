@@ -10,7 +10,8 @@ namespace swarm_planner {
 
 /// Solves JointQp with the solver generated from config/solver/joint_qp.yaml: a dual active set on one UAV's tables,
 /// with the widest vector instructions of this machine. UAVs that no pair row connects are solved apart, which is the
-/// same problem and takes less. Where a cap is met there is no answer.
+/// same problem and takes less, and single ones by the solver of one UAV, which has a second method. Where UAVs that
+/// are connected meet a cap there is no answer.
 class GeneratedJointSolver final : public JointQpSolver {
  public:
   /// For QPs of these models, each UAV's any of them. Throws std::invalid_argument if a model's weights do not make a
@@ -23,7 +24,10 @@ class GeneratedJointSolver final : public JointQpSolver {
  private:
   struct Memory;
 
-  /// The UAVs in memory_->members. False if a UAV's model is none of the tables'.
+  // The UAVs in memory_->members; false without an answer.
+  bool solveAlone(const JointQp& qp, JointQpSolution& solution);
+  bool solveTogether(const JointQp& qp, JointQpSolution& solution);
+  /// False if a UAV's model is none of the tables'.
   bool load(const JointQp& qp, const JointQpSolution& guess);
   void loadPairRows(const JointQp& qp);
   void store(const JointQp& qp, JointQpSolution& solution) const;

@@ -9,8 +9,8 @@
 
 namespace swarm_planner {
 
-/// Most UAVs of a JointQp, and most rows for pairs of them: a row for each pair, segment and control point. Fixed when the
-/// solver is generated.
+/// Most UAVs of a JointQp, and most rows for pairs of them: a row for each pair, segment and control point. Fixed when
+/// the solver is generated.
 constexpr std::size_t kMostJointUavs = 8;
 constexpr std::size_t kMostPairRows = kMostJointUavs * (kMostJointUavs - 1) / 2 * kHorizon * 4;
 
@@ -35,9 +35,9 @@ struct ActivePairRows {
 
 /// The QPs of several UAVs as one, with rows for pairs of them. Always feasible since every row is soft.
 struct JointQp {
-  std::size_t count = 0;                   ///< of UAVs in use
-  std::vector<std::unique_ptr<Qp>> uavs;   ///< kMostJointUavs; every model has the same penalty
-  std::vector<PairRow> pair_rows;          ///< at most kMostPairRows
+  std::size_t count = 0;                  ///< of UAVs in use
+  std::vector<std::unique_ptr<Qp>> uavs;  ///< kMostJointUavs; every model has the same penalty
+  std::vector<PairRow> pair_rows;         ///< at most kMostPairRows
 
   JointQp();
   /// Objective of plans, one for each UAV, with every row's slack at its best.
@@ -52,7 +52,7 @@ JointComponents findComponents(const JointQp& qp);
 
 struct JointQpSolution {
   QpStatus status = QpStatus::kNoAnswer;
-  int iterations = 0;      ///< changes of the active set
+  int iterations = 0;  ///< changes of the active set
   double max_slack = 0.0;
   std::array<std::array<Vector3, kHorizon>, kMostJointUavs> jerks;
   std::array<ActiveRows, kMostJointUavs> active;

@@ -12,8 +12,8 @@ namespace swarm_planner {
 
 /// What a joint run improves, and guesses of active rows that go with it; afterwards those of the last QP.
 struct JointPlans {
-  std::vector<Trajectory> plans;    ///< one for each UAV, each starting at its problem's start
-  std::vector<ActiveRows> active;   ///< likewise
+  std::vector<Trajectory> plans;   ///< one for each UAV, each starting at its problem's start
+  std::vector<ActiveRows> active;  ///< likewise
   ActivePairRows active_pairs;
 };
 

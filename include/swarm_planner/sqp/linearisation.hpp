@@ -26,8 +26,8 @@ struct RowPlace {
 /// Of control point i = 0..3 of segment k; empty for those of the first segment that the start fixes.
 std::optional<RowPlace> controlPointPlace(int k, int i);
 
-/// For each segment of an iterate that comes within `band` [m] of a body, the half-space relative to the body's reference
-/// point that keeps clear of it; where the plan runs into the body, on the side that it is to pass.
+/// For each segment of an iterate that comes within `band` [m] of a body, the half-space relative to the body's
+/// reference point that keeps clear of it; where the plan runs into the body, on the side that it is to pass.
 using BodyPlanes = std::array<std::optional<HalfSpace>, kHorizon>;
 void findBodyPlanes(const UavProblem& problem, const MovingBody& body, const Trajectory& iterate, double band,
                     BodyPlanes& planes);

@@ -26,8 +26,7 @@ class JointPlanner {
   /// UAV i of this cycle is to be planned for; between clear() and plan().
   void clear() { members_.clear(); }
   void add(std::size_t uav) { members_.push_back(uav); }
-  void plan(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings,
-            std::vector<UavReport>& reports);
+  void plan(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings, std::vector<UavReport>& reports);
 
  private:
   void pose(double epoch, std::vector<UavRecord>& records, const Surroundings& surroundings);
@@ -36,12 +35,12 @@ class JointPlanner {
   bool agree(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings);
 
   const Parameters& parameters_;
-  std::vector<UavPlanner> planners_;   ///< of each UAV
+  std::vector<UavPlanner> planners_;  ///< of each UAV
   JointSqpSolver sqp_;
-  std::vector<std::size_t> members_;   ///< UAVs that need a plan
-  std::vector<bool> is_member_;        ///< of each UAV
-  std::vector<std::size_t> solved_;    ///< members of the last problem, to whom the guess belongs
-  double guess_epoch_ = 0.0;           ///< [s]
+  std::vector<std::size_t> members_;  ///< UAVs that need a plan
+  std::vector<bool> is_member_;       ///< of each UAV
+  std::vector<std::size_t> solved_;   ///< members of the last problem, to whom the guess belongs
+  double guess_epoch_ = 0.0;          ///< [s]
   JointProblem problem_;
   JointPlans plans_;
 };

@@ -18,8 +18,8 @@
 
 namespace swarm_planner {
 
-/// Plans for every UAV: Problem 2, one after the other with the other UAVs' plans held fixed, or Problem 1, all at once.
-/// Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
+/// Plans for every UAV: Problem 2, one after the other with the other UAVs' plans held fixed, or Problem 1, all at
+/// once. Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
 class SwarmPlanner {
  public:
   /// Throws std::invalid_argument with planningModeFault() for more UAVs than the mode can plan for.

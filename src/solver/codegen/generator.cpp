@@ -32,10 +32,9 @@ std::string writeSolver(const Description& d, const Structure& s) {
 GeneratedCode generate(const Description& d) {
   const Structure s = analyse(d);
   const Layout layout = makeLayout(d, s);
-  const std::string header = writeSizes(d, s, layout) + "\n" + templateText("status.h") + "\n" +
-                             templateText("tables.h") + "\n" +
-                             templateText(d.copies > 1 ? "copies_types.h" : "types.h") + "\n" +
-                             writeInterface(d, s, layout);
+  const std::string header =
+      writeSizes(d, s, layout) + "\n" + templateText("status.h") + "\n" + templateText("tables.h") + "\n" +
+      templateText(d.copies > 1 ? "copies_types.h" : "types.h") + "\n" + writeInterface(d, s, layout);
   std::string source;
   source += templateText("common.c") + "\n" + writeConstants(d, s, layout) + "\n" + writeEvaluate(d, s) + "\n";
   source += writeStage(d, s);

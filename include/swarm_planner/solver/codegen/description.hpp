@@ -65,11 +65,11 @@ struct Description {
   bool input_linear = false;       ///< the linear term r_k is run-time data
   std::vector<Output> outputs;
   std::vector<Penalty> penalties;
-  int max_quadratic = 0;                      ///< most run-time terms 1/2 w (n . y - c)^2 of a solve and copy
+  int max_quadratic = 0;  ///< most run-time terms 1/2 w (n . y - c)^2 of a solve and copy
   int copies = 1;         ///< most copies of this model in a QP, each with rows of its own
   int max_couplings = 0;  ///< most run-time rows n_1 . y_1 + n_2 . y_2 >= d on an output of two copies
-  int max_active = 64;                        ///< most rows active at a time, of all copies
-  int max_changes = 400;                      ///< most changes of the active set
+  int max_active = 64;    ///< most rows active at a time, of all copies
+  int max_changes = 400;  ///< most changes of the active set
   std::vector<std::string> instruction_sets;  ///< of "baseline", "avx2", "avx512"
   std::uint64_t hash = 0;                     ///< of everything above but instruction_sets
 };
