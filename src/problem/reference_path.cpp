@@ -55,10 +55,14 @@ PathPoint ReferencePath::at(double arc_length) const {
 }
 
 PathPoint ReferencePath::nearest(const Vector3& position, double near, double window) const {
-  PathPoint best = at(near);
+  return nearestBetween(position, near - window, near + window);
+}
+
+PathPoint ReferencePath::nearestBetween(const Vector3& position, double first, double last) const {
+  first = std::min(std::max(first, 0.0), length());
+  last = std::min(std::max(last, 0.0), length());
+  PathPoint best = at(first);
   if (points_.size() < 2) return best;
-  const double first = std::min(std::max(near - window, 0.0), length());
-  const double last = std::min(std::max(near + window, 0.0), length());
   double best_squared = std::numeric_limits<double>::infinity();
   for (std::size_t i = segmentAt(first); i + 1 < points_.size() && arc_lengths_[i] <= last; ++i) {
     const double from = std::max(first, arc_lengths_[i]);
@@ -74,6 +78,41 @@ PathPoint ReferencePath::nearest(const Vector3& position, double near, double wi
     }
   }
   return best;
+}
+
+double ReferencePath::nextTurn(double arc_length, double cosine) const {
+  const auto next = std::upper_bound(arc_lengths_.begin(), arc_lengths_.end(), arc_length);
+  for (auto i = static_cast<std::size_t>(next - arc_lengths_.begin()); i < tangents_.size(); ++i) {
+    if (i > 0 && tangents_[i - 1].dot(tangents_[i]) < cosine) return arc_lengths_[i];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+double ReferencePath::nextCorner(double arc_length) const {
+  constexpr double kSameDirection = 1.0 - 1e-9;
+  return nextTurn(arc_length, kSameDirection);
+}
+
+double ReferencePath::nextSharpCorner(double arc_length) const { return nextTurn(arc_length, kSharpTurn); }
+
+double ReferencePath::lastSharpCorner(double arc_length) const {
+  if (tangents_.empty()) return 0.0;
+  for (std::size_t i = segmentAt(std::min(arc_length, length())); i > 0; --i) {
+    if (tangents_[i - 1].dot(tangents_[i]) < kSharpTurn) return arc_lengths_[i];
+  }
+  return 0.0;
+}
+
+double ReferencePath::advance(const Vector3& position, double progress, double pass_distance) const {
+  constexpr double kWindow = 5.0;  // that of nearest()
+  const double first = std::max(progress - kWindow, lastSharpCorner(progress));
+  const double corner = nextSharpCorner(progress);
+  const PathPoint foot = nearestBetween(position, first, std::min(progress + kWindow, corner));
+  if (corner > progress + kWindow) return foot.arc_length;
+  const PathPoint beyond = nearestBetween(position, corner, progress + kWindow);
+  const bool is_there = (position - at(corner).position).norm() < pass_distance;
+  const bool is_nearer = (position - beyond.position).norm() + pass_distance < (position - foot.position).norm();
+  return is_there || is_nearer ? beyond.arc_length : foot.arc_length;
 }
 
 TargetState MovingTarget::at(double t) const {

@@ -19,6 +19,7 @@ constexpr double kBoundSlack = 0.1;      // of a bound, by which a measured star
 constexpr double kReserve = 0.002;       // of the bounds, that the solver stays inside
 constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
 constexpr double kSameShortfall = 1e-3;  // [m s]
+constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
@@ -328,7 +329,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   report.pair_distance = clearance.pair;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();
-  report.lag = problem_.targets[0].arc_length - problem_.progress;
+  report.lag = lag_;
   const bool rests = record.task.mode == FlightMode::kLanded || record.task.is_quickest_stop;
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
@@ -356,16 +357,16 @@ void UavPlanner::poseProblem(std::size_t uav, double epoch, UavRecord& record, c
   const MovingTarget& target = on_mission ? record.reference : record.task.target;
   bool& on_path = on_mission ? record.on_reference : record.task.on_target_path;
   double& progress = on_mission ? record.progress : record.task.target_progress;
-  progress = on_path ? target.path.nearest(record.start.p, progress).arc_length
+  const double full_speed = parameters_.limits.max_speed;
+  progress = on_path ? target.path.advance(record.start.p, progress, kPassed * full_speed * problem_.dt)
                      : target.path.nearest(record.start.p, 0.0, kInfinity).arc_length;
   on_path = true;
   problem_.epoch = epoch;
   problem_.start = record.start;
   problem_.path = &target.path;
   problem_.progress = progress;
-  for (std::size_t k = 0; k <= kHorizon; ++k) {
-    problem_.targets[k] = target.at(epoch + static_cast<double>(k) * problem_.dt);
-  }
+  problem_.targets = previewTargets(target, progress, full_speed, epoch, problem_.dt);
+  lag_ = target.at(epoch).arc_length - progress;
   surroundings.collect(uav, problem_);
 }
 

@@ -57,6 +57,26 @@ TEST(Swarm, MeetingHeadOnPassEachOther) {
   }
 }
 
+// The target runs ahead to the path's end: the last leg's end is nearest to the middle of the first leg.
+TEST(Swarm, ArrivesAroundSharpCornersBehindATargetThatIsFarAhead) {
+  const Path hairpin{Vector3(-9, 14, 10), Vector3(5, -22, 10), Vector3(20, 5, 10)};
+  const Path there_and_back{Vector3(0, 0, 10), Vector3(25, 0, 10), Vector3(0, 0, 10)};
+  const Path lawnmower{Vector3(0, 0, 10), Vector3(30, 0, 10), Vector3(30, 3, 10), Vector3(0, 3, 10), Vector3(0, 6, 10)};
+  for (const Path& way : {hairpin, there_and_back, lawnmower}) {
+    PerfectFlight flight(makeTestMission({way.front()}, {way.back()}, 0.0));
+    double length = 0.0;
+    for (std::size_t i = 1; i < way.size(); ++i) length += (way[i] - way[i - 1]).norm();
+    flight.planner().setReference(0, way, length, 0.0);
+    std::vector<double> least(way.size(), kInfinity);
+    for (int cycle = 0; cycle < 100; ++cycle) {
+      flight.cycle();
+      for (std::size_t i = 0; i < way.size(); ++i) least[i] = std::min(least[i], (flight.vehicle(0).p - way[i]).norm());
+    }
+    EXPECT_LT((flight.vehicle(0).p - way.back()).norm(), 0.2) << way.back().transpose();
+    for (std::size_t i = 0; i < way.size(); ++i) EXPECT_LT(least[i], 2.5) << "corner left out: " << way[i].transpose();
+  }
+}
+
 /// Least gauge of the two newest motions, sampled densely.
 double leastPairGaugeOfPlans(const SwarmPlanner& planner) {
   const CommittedMotion& first = planner.committed(0);

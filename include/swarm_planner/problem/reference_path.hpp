@@ -35,9 +35,26 @@ class ReferencePath {
   /// The point nearest to `position` among those within `window` [m] of arc length of `near` [m]: the window keeps
   /// the foot from jumping where the path crosses itself. Of points equally near, the first.
   PathPoint nearest(const Vector3& position, double near, double window = 5.0) const;
+  /// How far a UAV at `position` that had come to `progress` has come by now [m]: its nearest point within 5 m, but
+  /// past a sharp corner only from within `pass_distance` [m] of it, or where the path beyond is nearer by more than
+  /// that; and never back again. Where a path doubles back both of its legs are near, and the nearest point cannot tell
+  /// them apart.
+  double advance(const Vector3& position, double progress, double pass_distance) const;
+  /// Arc length of the first corner after `arc_length` [m], of the first sharp one, at which it turns by more than
+  /// kSharpTurn; infinite if there is none.
+  double nextCorner(double arc_length) const;
+  double nextSharpCorner(double arc_length) const;
   const std::vector<Vector3>& points() const { return points_; }
 
  private:
+  /// Cosine of the turn from which a corner is sharp: a little more than a right angle.
+  static constexpr double kSharpTurn = -0.17;
+
+  /// The first or, if there is none, an infinite arc length > `arc_length` of a corner whose turn has a cosine below
+  /// `cosine`.
+  double nextTurn(double arc_length, double cosine) const;
+  double lastSharpCorner(double arc_length) const;
+  PathPoint nearestBetween(const Vector3& position, double first, double last) const;
   /// Index of the segment that holds `arc_length` in [0, length()]; needs two points.
   std::size_t segmentAt(double arc_length) const;
   PathPoint onSegment(std::size_t segment, double arc_length) const;

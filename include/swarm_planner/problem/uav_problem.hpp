@@ -7,7 +7,7 @@
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/config/scenario.hpp"
 #include "swarm_planner/problem/moving_body.hpp"
-#include "swarm_planner/problem/reference_path.hpp"
+#include "swarm_planner/problem/target_preview.hpp"
 
 namespace swarm_planner {
 
@@ -33,12 +33,12 @@ struct UavProblem {
   const Parameters* parameters = nullptr;
   const ReferencePath* path = nullptr;
   FlightBounds bounds;
-  double progress = 0.0;                          ///< arc length near which the start's foot on the path lies [m]
-  KinematicState start;                           ///< at the epoch
-  double epoch = 0.0;                             ///< [s]
-  double dt = 0.0;                                ///< [s]
-  std::array<TargetState, kHorizon + 1> targets;  ///< of each stage
-  std::vector<MovingBody> bodies;                 ///< whatever can be reached within the horizon
+  double progress = 0.0;  ///< arc length near which the start's foot on the path lies [m]
+  KinematicState start;   ///< at the epoch
+  double epoch = 0.0;     ///< [s]
+  double dt = 0.0;        ///< [s]
+  StageTargets targets;
+  std::vector<MovingBody> bodies;  ///< whatever can be reached within the horizon
 };
 
 /// Points at which constraints hold while a plan flies segment k: its four control points, or, where they hold at the

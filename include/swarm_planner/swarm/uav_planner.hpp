@@ -86,6 +86,7 @@ class UavPlanner {
   UavProblem problem_;
   SqpSolver sqp_;
   CheckSurroundings check_;
+  double lag_ = 0.0;                     ///< of the start behind the target, along the path [m]
   Vector3 committed_ = Vector3::Zero();  ///< where the motion flown is at the epoch [m]
 
   Trajectory plan_;                ///< in work
