@@ -36,7 +36,8 @@ penalties: {wall: {linear: 3, quadratic: 50}}
 outputs:
   force: {input: [[0, 1], [1, 0]], bounds: {lower: [-2, -2], upper: [2, 2]}}
   place: {state: [[1, 0, 0, 0], [0, 1, 0, 0]], rows: {most_per_stage: 2, penalty: wall}}
-copies: )" + copies + "\nlimits: " + limits;
+copies: )" +
+         copies + "\nlimits: " + limits;
 }
 
 const char* const kDriver = R"(#include <stdio.h>
@@ -182,8 +183,9 @@ std::string sparseText() {
   out << "bounds: {lower: varies, upper: varies}\nequalities:\n";
   for (int k = 0; k < kCopies; ++k) {
     const int x = k * kCopyVariables, u = x + 4 * kHorizon;
-    out << "  dynamics_" << k << ":\n    rows: " << 4 * kHorizon << "\n    right: varies\n    matrix:\n      - {at: [0, "
-        << x << "], block: {identity: " << 4 * kHorizon << "}}\n      - {at: [4, " << x
+    out << "  dynamics_" << k << ":\n    rows: " << 4 * kHorizon
+        << "\n    right: varies\n    matrix:\n      - {at: [0, " << x << "], block: {identity: " << 4 * kHorizon
+        << "}}\n      - {at: [4, " << x
         << "], block: {kron: [[[-1, -dt], [0, -1]], {identity: 2}]}, repeat: " << kHorizon - 1 << "}\n      - {at: [0, "
         << u << "], block: {kron: [[[-dt^2 / 2], [-dt]], {identity: 2}]}, repeat: " << kHorizon << "}\n";
   }
