@@ -32,6 +32,7 @@ JointPlanner::JointPlanner(const Parameters& parameters, const std::optional<Wor
   for (std::size_t i = 0; i < uavs; ++i) planners_.emplace_back(parameters, workspace, tables, max_bodies);
   members_.reserve(uavs);
   solved_.reserve(uavs);
+  drafts_.reserve(uavs);
   problem_.uavs.reserve(uavs);
   problem_.pairs.reserve(uavs * uavs);
   plans_.plans.reserve(uavs);
@@ -103,15 +104,15 @@ void JointPlanner::posePairs(const Surroundings& surroundings) {
 
 bool JointPlanner::agree(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings) {
   bool all = true;
-  // What a UAV flies now is what it may fly on if its new motion does not arrive.
-  for (std::size_t m = 0; m < members_.size() && all; ++m) {
-    const std::size_t i = members_[m];
-    all = planners_[i].draft(plans_.plans[m]).isFinite();
+  drafts_.clear();
+  for (std::size_t m = 0; m < members_.size(); ++m) {
+    drafts_.push_back(&planners_[members_[m]].draft(plans_.plans[m]));
+    all = all && drafts_.back()->isFinite();
   }
   if (!all) return false;
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    const std::size_t i = members_[m];
-    surroundings.replaceMotions(i, planners_[i].draft(plans_.plans[m]), &records[i].motions.flown());
+    // What a UAV flies now is what it may fly on if its new motion does not arrive.
+    surroundings.replaceMotions(members_[m], *drafts_[m], &records[members_[m]].motions.flown());
   }
   for (const std::size_t i : members_) all = all && planners_[i].passes(i, epoch, records[i], surroundings);
   for (const std::size_t i : members_) {

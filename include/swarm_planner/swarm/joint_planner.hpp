@@ -42,6 +42,7 @@ class JointPlanner {
   std::vector<std::size_t> solved_;   ///< members of the last problem, to whom the guess belongs
   double guess_epoch_ = 0.0;          ///< [s]
   JointProblem problem_;
+  std::vector<const CommittedMotion*> drafts_;  ///< of the members
   JointPlans plans_;
 };
 
