@@ -39,14 +39,13 @@ JointPlanner::JointPlanner(const Parameters& parameters, const std::optional<Wor
   plans_.active.resize(uavs);
 }
 
-void JointPlanner::plan(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings,
-                        std::vector<UavReport>& reports) {
+void JointPlanner::plan(double epoch, const std::function<bool(std::size_t)>& is_to_plan,
+                        std::vector<UavRecord>& records, Surroundings& surroundings, std::vector<UavReport>& reports) {
   const Stopwatch stopwatch;
-  members_.erase(std::remove_if(members_.begin(), members_.end(),
-                                [&](std::size_t i) {
-                                  return !planners_[i].begin(i, epoch, records[i], surroundings, reports[i]);
-                                }),
-                 members_.end());
+  members_.clear();
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    if (is_to_plan(i) && planners_[i].begin(i, epoch, records[i], surroundings, reports[i])) members_.push_back(i);
+  }
   if (members_.empty()) return;
   pose(epoch, records, surroundings);
   const std::vector<SqpResult>& results = sqp_.solve(problem_, plans_);

@@ -233,14 +233,8 @@ class SwarmPlanner::Impl {
     }
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
-    if (joint) {
-      joint->clear();
-      for (std::size_t i = 0; i < uavs.size(); ++i) {
-        if (isToPlan(i)) joint->add(i);
-      }
-      joint->plan(epoch, uavs, surroundings, report.uavs);
-      return;
-    }
+    const auto is_to_plan = [this](std::size_t i) { return isToPlan(i); };
+    if (joint) return joint->plan(epoch, is_to_plan, uavs, surroundings, report.uavs);
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {

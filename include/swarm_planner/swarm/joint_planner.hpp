@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -23,10 +24,9 @@ class JointPlanner {
   JointPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                std::shared_ptr<const GeneratedTables> tables, std::size_t max_bodies, std::size_t uavs);
 
-  /// UAV i of this cycle is to be planned for; between clear() and plan().
-  void clear() { members_.clear(); }
-  void add(std::size_t uav) { members_.push_back(uav); }
-  void plan(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings, std::vector<UavReport>& reports);
+  /// Plans for the UAVs for which `is_to_plan` holds.
+  void plan(double epoch, const std::function<bool(std::size_t)>& is_to_plan, std::vector<UavRecord>& records,
+            Surroundings& surroundings, std::vector<UavReport>& reports);
 
  private:
   void pose(double epoch, std::vector<UavRecord>& records, const Surroundings& surroundings);
