@@ -13,9 +13,8 @@ namespace swarm_planner {
 /// velocity: four standard deviations of noise that a planner with the shipped parameters is meant for.
 ///
 ///  - One such measurement makes it suspected: others are to keep clear of where it would stop, too.
-///  - Two in a row that are off to the same side: it does not follow, and has to be planned for from where it is. A
-///  push
-///    does not last so long. Until it is cleared of that one is enough.
+///  - Two in a row that are off to the same side: it does not follow, and has to be planned for from where it is.
+///    A push does not last so long. Until it is cleared of that one is enough.
 ///  - It is cleared once it is measured on its motion again, and more than 4 n from where it was off last: who only
 ///    stands where it is to stand may hover on its own. Nobody is told of that any more after odometry_doubt_time.
 class FollowingWatch {
