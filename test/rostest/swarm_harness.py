@@ -88,6 +88,10 @@ class Recorder:
         with self._lock:
             return self._messages[-1] if self._messages else None
 
+    def newest(self):
+        """The last message; waits for the first one, as other nodes may be connected before this one is."""
+        return wait_for(self.last, 'a message on ' + self._subscriber.resolved_name)
+
     def wait_for_more(self, count, timeout=PATIENCE):
         """Waits for `count` further messages and returns them."""
         before = self.count()

@@ -94,7 +94,7 @@ class BadInputSimTest(unittest.TestCase):
         def flown():
             self.trajectories.publish(trajectory())
             rospy.sleep(0.02)
-            return self.odometry.last().pose.pose.position.z > 20.05
+            return self.odometry.newest().pose.pose.position.z > 20.05
         wait_for(flown, 'the vehicle on its way up')
 
     def test_tracks_and_status(self):

@@ -46,7 +46,7 @@ class InjectFaultTest(unittest.TestCase):
     def wait_until_well(self):
         for uav in STARTS:
             self.planner.wait_for_uav(uav, lambda each: each.state == UavStatus.TRACKING and not each.reason, 'tracking')
-            wait_for(lambda name=uav: offset(self.odometry[name].last(), name) < 0.5, uav + ' at its place')
+            wait_for(lambda name=uav: offset(self.odometry[name].newest(), name) < 0.5, uav + ' at its place')
 
     def test_1_fault_of_the_scenario_comes_and_goes(self):
         self.planner.wait_for_start()

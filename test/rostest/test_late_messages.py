@@ -40,7 +40,7 @@ class LateMessagesTest(unittest.TestCase):
     def test_3_the_swarm_flies_all_the_same(self):
         self.planner.wait_for_start()
         self.planner.wait_for_uav('uav1', lambda uav: uav.state == UavStatus.TRACKING, 'tracking')
-        wait_for(lambda: self.odometry.last().pose.pose.position.x > 2.0, 'a flight of 2 m')
+        wait_for(lambda: self.odometry.newest().pose.pose.position.x > 2.0, 'a flight of 2 m')
 
 
 if __name__ == '__main__':

@@ -55,7 +55,7 @@ class MasterRestartTest(unittest.TestCase):
 
     def check_flight(self, seconds):
         """All goes on over the connections that there are."""
-        begin = self.odometry.last().pose.pose.position.x
+        begin = self.odometry.newest().pose.pose.position.x
         misses = self.planner.status.last().deadline_misses
         count = self.planner.status.count()
         time.sleep(seconds)
@@ -63,7 +63,7 @@ class MasterRestartTest(unittest.TestCase):
         self.assertLessEqual(self.planner.status.last().deadline_misses, misses + 1)
         for uav in self.planner.status.last().uavs:
             self.assertEqual(uav.state, UavStatus.TRACKING)
-        self.assertGreater(self.odometry.last().pose.pose.position.x, begin + 1.0)
+        self.assertGreater(self.odometry.newest().pose.pose.position.x, begin + 1.0)
 
     def registered(self):
         """Names of what the master knows: topics that are published, topics that the planner reads, services."""

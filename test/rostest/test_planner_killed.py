@@ -36,7 +36,7 @@ class PlannerKilledTest(unittest.TestCase):
         cls.trajectories = {name: Recorder(name + '/command/trajectory', MultiDOFJointTrajectory) for name in UAVS}
 
     def speed(self, name):
-        return math.hypot(*vector(self.odometry[name].last().twist.twist.linear))
+        return math.hypot(*vector(self.odometry[name].newest().twist.twist.linear))
 
     def all_track(self):
         status = self.planner.status.last()
@@ -46,7 +46,7 @@ class PlannerKilledTest(unittest.TestCase):
         """How far the first point of the first trajectory of a planner is from where the vehicle is then [m]."""
         first = wait_for(lambda: (self.trajectories[name].all() or [None])[0], 'a trajectory of ' + name)
         begin = first.header.stamp
-        wait_for(lambda: self.odometry[name].last().header.stamp >= begin, 'odometry of ' + name)
+        wait_for(lambda: self.odometry[name].newest().header.stamp >= begin, 'odometry of ' + name)
         at = min(self.odometry[name].all()[-500:], key=lambda each: abs((each.header.stamp - begin).to_sec()))
         self.assertLess(abs((at.header.stamp - begin).to_sec()), 0.05)
         ahead = (begin - at.header.stamp).to_sec()
@@ -98,10 +98,10 @@ class PlannerKilledTest(unittest.TestCase):
     def check_rest(self):
         kill_node('planner_node')
         wait_for(lambda: all(self.speed(name) < 0.02 for name in UAVS), 'UAVs at rest')
-        places = {name: vector(self.odometry[name].last().pose.pose.position) for name in UAVS}
+        places = {name: vector(self.odometry[name].newest().pose.pose.position) for name in UAVS}
         rospy.sleep(10.0)
         for name in UAVS:
-            self.assertLess(math.dist(places[name], vector(self.odometry[name].last().pose.pose.position)), 0.05)
+            self.assertLess(math.dist(places[name], vector(self.odometry[name].newest().pose.pose.position)), 0.05)
 
 
 if __name__ == '__main__':

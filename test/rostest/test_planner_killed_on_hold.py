@@ -15,7 +15,7 @@ from swarm_harness import Planner, Recorder, kill_node, wait_for
 class PlannerKilledOnHoldTest(unittest.TestCase):
 
     def speed(self):
-        linear = self.odometry.last().twist.twist.linear
+        linear = self.odometry.newest().twist.twist.linear
         return math.hypot(linear.x, linear.y, linear.z)
 
     def call(self, name):
@@ -40,9 +40,9 @@ class PlannerKilledOnHoldTest(unittest.TestCase):
         self.assertTrue(self.call('hold').success)
         wait_for(lambda: self.speed() < 0.1, 'a swarm at rest')
         self.restart()
-        place = self.odometry.last().pose.pose.position
+        place = self.odometry.newest().pose.pose.position
         rospy.sleep(8.0)
-        now = self.odometry.last().pose.pose.position
+        now = self.odometry.newest().pose.pose.position
         self.assertLess(math.dist((place.x, place.y, place.z), (now.x, now.y, now.z)), 0.3)
         self.assertTrue(self.call('start').success)
         wait_for(lambda: self.speed() > 1.0, 'a flight that goes on')

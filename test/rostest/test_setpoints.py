@@ -81,7 +81,7 @@ class SetpointsTest(unittest.TestCase):
             self.assertTrue(all(message.points == messages[0].points for message in messages))
 
     def test_velocity_is_the_derivative_of_position(self):
-        message = self.trajectories['uav3'].last()
+        message = self.trajectories['uav3'].newest()
         for a, b in zip(message.points, message.points[1:]):
             dt = (b.time_from_start - a.time_from_start).to_sec()
             for axis in 'xyz':
