@@ -4,6 +4,7 @@
 #include <array>
 
 #include "swarm_planner/model/trajectory.hpp"
+#include "swarm_planner/obstacles/box.hpp"
 
 namespace swarm_planner {
 
@@ -15,21 +16,6 @@ using SegmentPoints = std::array<Vector3, 4>;
 inline SegmentPoints segmentPoints(const KinematicState& begin, const KinematicState& end, double dt) {
   return {begin.p, begin.p + dt / 3.0 * begin.v, begin.p + 2.0 * dt / 3.0 * begin.v + dt * dt / 6.0 * begin.a, end.p};
 }
-
-/// Axis-aligned box [m].
-struct Box {
-  Vector3 min = Vector3::Constant(1e300);
-  Vector3 max = Vector3::Constant(-1e300);
-
-  void include(const Vector3& point) {
-    min = min.cwiseMin(point);
-    max = max.cwiseMax(point);
-  }
-  /// True if some point of this box lies within `distance` of `other` along every axis.
-  bool near(const Box& other, double distance) const {
-    return (min.array() - distance <= other.max.array()).all() && (other.min.array() - distance <= max.array()).all();
-  }
-};
 
 /// Motion of a UAV that others plan around: control points on the common stage grid; segment k holds points 3k..3k+3.
 struct PredictedMotion {

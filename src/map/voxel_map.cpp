@@ -1,0 +1,191 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/map/voxel_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarm_planner {
+namespace {
+
+constexpr int kSide = VoxelChunk::kSide;
+constexpr std::int32_t kNone = -1;
+
+int chunkOf(int voxel) { return voxel >> 5; }
+
+std::size_t hashOf(const VoxelIndex& index) {
+  const auto mixed = static_cast<std::uint64_t>(index.x()) * 0x9e3779b97f4a7c15U ^
+                     static_cast<std::uint64_t>(index.y()) * 0xc2b2ae3d27d4eb4fU ^
+                     static_cast<std::uint64_t>(index.z()) * 0x165667b19e3779f9U;
+  return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
+}
+
+/// Of a coordinate from [low, high] [same unit].
+double gapTo(double x, double low, double high) { return std::max({low - x, x - high, 0.0}); }
+
+/// Looks for the occupied voxel that is nearest to a point, chunk by chunk, block by block, row by row. Lengths are in
+/// voxels.
+class NearestSearch {
+ public:
+  NearestSearch(const Vector3& p, double limit) : p_(p), best_(limit * limit) {}
+
+  void lookIn(const VoxelChunk& chunk, const VoxelIndex& corner) {
+    corner_ = corner;
+    const Vector3 low = corner.cast<double>();
+    if (squaredGap(low, kSide) >= best_) return;
+    for (int z = 0; z < VoxelChunk::kBlocks; ++z) {
+      for (int y = 0; y < VoxelChunk::kBlocks; ++y) {
+        for (int x = 0; x < VoxelChunk::kBlocks; ++x) {
+          if (!chunk.hasInBlock(x, y, z)) continue;
+          const VoxelIndex block = VoxelChunk::kBlock * VoxelIndex(x, y, z);
+          if (squaredGap(low + block.cast<double>(), VoxelChunk::kBlock) < best_) lookInBlock(chunk, block);
+        }
+      }
+    }
+  }
+
+  double squaredDistance() const { return best_; }
+  const Vector3& point() const { return point_; }
+
+ private:
+  double squaredGap(const Vector3& low, double size) const {
+    const double x = gapTo(p_.x(), low.x(), low.x() + size);
+    const double y = gapTo(p_.y(), low.y(), low.y() + size);
+    const double z = gapTo(p_.z(), low.z(), low.z() + size);
+    return x * x + y * y + z * z;
+  }
+
+  void lookInBlock(const VoxelChunk& chunk, const VoxelIndex& block) {
+    const std::uint32_t mask = 0xffU << static_cast<unsigned>(block.x());
+    for (int z = block.z(); z < block.z() + VoxelChunk::kBlock; ++z) {
+      const double above = corner_.z() + z;
+      const double dz = gapTo(p_.z(), above, above + 1.0);
+      if (dz * dz >= best_) continue;
+      for (int y = block.y(); y < block.y() + VoxelChunk::kBlock; ++y) {
+        const std::uint32_t row = chunk.row(y, z) & mask;
+        if (row == 0) continue;
+        const double across = corner_.y() + y;
+        const double dy = gapTo(p_.y(), across, across + 1.0);
+        if (dy * dy + dz * dz < best_) lookInRow(row, across, dy, above, dz);
+      }
+    }
+  }
+
+  void lookInRow(std::uint32_t row, double y, double dy, double z, double dz) {
+    for (int x = 0; row != 0; ++x, row >>= 1U) {
+      if ((row & 1U) == 0) continue;
+      const double along = corner_.x() + x;
+      const double dx = gapTo(p_.x(), along, along + 1.0);
+      const double squared = dx * dx + dy * dy + dz * dz;
+      if (squared >= best_) continue;
+      best_ = squared;
+      const Vector3 low(along, y, z);
+      point_ = p_.cwiseMax(low).cwiseMin(low + Vector3::Ones());
+    }
+  }
+
+  Vector3 p_;
+  double best_;  ///< squared
+  Vector3 point_ = Vector3::Zero();
+  VoxelIndex corner_ = VoxelIndex::Zero();
+};
+
+}  // namespace
+
+std::size_t VoxelMap::memory() const {
+  return chunks_.size() * (sizeof(VoxelChunk) + sizeof(Entry)) + table_.size() * sizeof(std::int32_t) +
+         sizeof(VoxelMap);
+}
+
+const VoxelChunk* VoxelMap::chunk(const VoxelIndex& index) const {
+  if (table_.empty()) return nullptr;
+  for (std::size_t slot = hashOf(index) & (table_.size() - 1); table_[slot] != kNone;
+       slot = (slot + 1) & (table_.size() - 1)) {
+    const Entry& entry = chunks_[static_cast<std::size_t>(table_[slot])];
+    if (entry.index == index) return entry.chunk.get();
+  }
+  return nullptr;
+}
+
+void VoxelMap::buildTable() {
+  std::size_t size = 16;
+  while (size < 2 * chunks_.size()) size *= 2;
+  table_.assign(chunks_.empty() ? 0 : size, kNone);
+  for (std::size_t i = 0; i < chunks_.size(); ++i) {
+    std::size_t slot = hashOf(chunks_[i].index) & (size - 1);
+    while (table_[slot] != kNone) slot = (slot + 1) & (size - 1);
+    table_[slot] = static_cast<std::int32_t>(i);
+  }
+}
+
+void VoxelMap::clampedRange(const Box& box, VoxelIndex& first, VoxelIndex& last) const {
+  const Vector3 low = box.min.cwiseMax(bounds_.min);
+  const Vector3 high = box.max.cwiseMin(bounds_.max);
+  first.setOnes();
+  last.setZero();
+  if (!(low.array() <= high.array()).all()) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Voxels that begin where the box ends, or end where it begins, share a face with it.
+    first[axis] = static_cast<int>(std::ceil(low[axis] / resolution_)) - 1;
+    last[axis] = static_cast<int>(std::floor(high[axis] / resolution_));
+  }
+}
+
+VoxelIndex VoxelMap::voxelAt(const Vector3& p) const {
+  VoxelIndex voxel;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double index = std::floor(p[axis] / resolution_);
+    voxel[axis] = static_cast<int>(std::clamp<double>(index, -kFarthestVoxel - 1, kFarthestVoxel + 1));
+  }
+  return voxel;
+}
+
+bool VoxelMap::isOccupied(const VoxelIndex& voxel) const {
+  if (outside_is_occupied_) {
+    const Vector3 middle = resolution_ * (voxel.cast<double>() + Vector3::Constant(0.5));
+    if ((middle.array() < bounds_.min.array()).any() || (middle.array() > bounds_.max.array()).any()) return true;
+  }
+  const VoxelChunk* part = chunk({chunkOf(voxel.x()), chunkOf(voxel.y()), chunkOf(voxel.z())});
+  return part != nullptr && part->isOccupied(voxel.x() & (kSide - 1), voxel.y() & (kSide - 1), voxel.z() & (kSide - 1));
+}
+
+bool VoxelMap::isOccupied(const Vector3& p) const { return p.hasNaN() || isOccupied(voxelAt(p)); }
+
+Box VoxelMap::boxOf(const VoxelIndex& voxel) const {
+  return {resolution_ * voxel.cast<double>(), resolution_ * (voxel.cast<double>() + Vector3::Ones())};
+}
+
+VoxelMap::Nearest VoxelMap::findNearest(const Vector3& p, double limit) const {
+  if (p.hasNaN()) return {0.0, p};
+  Nearest nearest{limit, p};
+  if (outside_is_occupied_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double face : {bounds_.min[axis], bounds_.max[axis]}) {
+        const double gap = std::max(face == bounds_.min[axis] ? p[axis] - face : face - p[axis], 0.0);
+        if (gap >= nearest.distance) continue;
+        nearest = {gap, p};
+        if (gap > 0.0) nearest.point[axis] = face;
+      }
+    }
+  }
+  Box around;
+  around.min = p - Vector3::Constant(nearest.distance);
+  around.max = p + Vector3::Constant(nearest.distance);
+  VoxelIndex first;
+  VoxelIndex last;
+  clampedRange(around, first, last);
+  if ((first.array() > last.array()).any()) return nearest;
+  const double limit_in_voxels = nearest.distance / resolution_;
+  NearestSearch search(p / resolution_, limit_in_voxels);
+  for (int z = chunkOf(first.z()); z <= chunkOf(last.z()); ++z) {
+    for (int y = chunkOf(first.y()); y <= chunkOf(last.y()); ++y) {
+      for (int x = chunkOf(first.x()); x <= chunkOf(last.x()); ++x) {
+        const VoxelChunk* part = chunk({x, y, z});
+        if (part != nullptr) search.lookIn(*part, kSide * VoxelIndex(x, y, z));
+      }
+    }
+  }
+  if (search.squaredDistance() >= limit_in_voxels * limit_in_voxels) return nearest;
+  return {resolution_ * std::sqrt(search.squaredDistance()), resolution_ * search.point()};
+}
+
+}  // namespace swarm_planner
