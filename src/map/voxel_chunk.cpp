@@ -15,4 +15,15 @@ void VoxelChunk::fillRow(int y, int z, std::uint32_t voxels) {
   }
 }
 
+bool VoxelChunk::hasIn(const Eigen::Vector3i& first, const Eigen::Vector3i& last) const {
+  const std::uint64_t below = (std::uint64_t{1} << (last.x() + 1)) - 1;
+  const auto voxels = static_cast<std::uint32_t>(below & ~((std::uint64_t{1} << first.x()) - 1));
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      if ((row(y, z) & voxels) != 0) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace swarm_planner

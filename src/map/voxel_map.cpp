@@ -188,4 +188,26 @@ VoxelMap::Nearest VoxelMap::findNearest(const Vector3& p, double limit) const {
   return {resolution_ * std::sqrt(search.squaredDistance()), resolution_ * search.point()};
 }
 
+bool VoxelMap::isEmpty(const Box& box) const {
+  if (outside_is_occupied_ &&
+      ((box.min.array() <= bounds_.min.array()).any() || (box.max.array() >= bounds_.max.array()).any())) {
+    return false;
+  }
+  VoxelIndex first;
+  VoxelIndex last;
+  clampedRange(box, first, last);
+  if ((first.array() > last.array()).any()) return true;
+  for (int cz = chunkOf(first.z()); cz <= chunkOf(last.z()); ++cz) {
+    for (int cy = chunkOf(first.y()); cy <= chunkOf(last.y()); ++cy) {
+      for (int cx = chunkOf(first.x()); cx <= chunkOf(last.x()); ++cx) {
+        const VoxelChunk* part = chunk({cx, cy, cz});
+        if (part == nullptr) continue;
+        const VoxelIndex corner = kSide * VoxelIndex(cx, cy, cz);
+        if (part->hasIn((first - corner).cwiseMax(0), (last - corner).cwiseMin(kSide - 1))) return false;
+      }
+    }
+  }
+  return true;
+}
+
 }  // namespace swarm_planner

@@ -7,6 +7,7 @@
 
 #include "swarm_planner/swarm/clearance_proof.hpp"
 #include "swarm_planner/swarm/flight_envelope.hpp"
+#include "swarm_planner/swarm/map_check.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
 
 namespace swarm_planner {
@@ -225,6 +226,8 @@ const char* checkReasonText(CheckReason reason) {
       return "an obstacle comes to its resting place";
     case CheckReason::kOutOfArea:
       return "goes farther than others expect";
+    case CheckReason::kMap:
+      return "too close to what the map has as occupied";
   }
   return "unknown";
 }
@@ -245,6 +248,10 @@ CheckVerdict checkClearance(const CommittedMotion& motion, const Vector3& commit
   if (!motion.isFinite()) return {CheckReason::kNotFinite};
   const CheckVerdict workspace = checkWorkspace(motion, limits);
   if (!workspace.accepted()) return workspace;
+  if (surroundings.map != nullptr) {
+    const ClearanceFinding finding = MapProof(*surroundings.map, surroundings.map_distance, committed).prove(motion);
+    if (!finding.clear) return {CheckReason::kMap, finding.time, -1, finding.undecided};
+  }
   for (std::size_t i = 0; i < surroundings.obstacles.size(); ++i) {
     const PredictedObstacle& obstacle = surroundings.obstacles[i];
     if (!isFinite(obstacle)) return withBody({CheckReason::kNotFinite}, i);

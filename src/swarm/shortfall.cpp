@@ -38,6 +38,9 @@ double shortfall(const CommittedMotion& motion, double from, const CheckLimits& 
     const double t = from + (i + 0.5) * kStep;
     const Vector3 p = motion.at(t).p;
     double worst = 0.0;
+    if (surroundings.map != nullptr) {
+      worst = surroundings.map_distance - surroundings.map->distance(p, surroundings.map_distance);
+    }
     for (const PredictedObstacle& obstacle : surroundings.obstacles) {
       worst = std::max(worst, obstacleShortfall(p, t, obstacle));
     }

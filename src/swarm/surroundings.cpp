@@ -175,6 +175,8 @@ void Surroundings::addUav(std::size_t uav, std::uint32_t other, const PredictedM
 void Surroundings::collect(std::size_t uav, CheckSurroundings& surroundings) const {
   surroundings.clear();
   if (!parameters_.limits.avoidance) return;
+  surroundings.map = map_;
+  surroundings.map_distance = parameters_.limits.uav_radius + parameters_.limits.tracking_error;
   surroundings.obstacles.assign(checked_obstacles_.begin(), checked_obstacles_.end());
   for (const std::uint32_t other : neighbours_.of(uav)) {
     const Motions& motions = motions_[other];

@@ -222,6 +222,7 @@ class SwarmPlanner::Impl {
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
     surroundings.setEpoch(epoch);
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
+    surroundings.setMap(snapshot.map.get());
     foreign_bodies.clear();
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       // One that has joined and is not seen is still where it was as a foreign one.

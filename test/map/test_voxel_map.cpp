@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <stdexcept>
@@ -87,6 +88,14 @@ TEST(VoxelMap, BoxesAreVisitedVoxelByVoxel) {
     Voxels visited;
     map->forEachOccupied(box, [&](const VoxelIndex& v) { EXPECT_TRUE(visited.insert({v.x(), v.y(), v.z()}).second); });
     EXPECT_EQ(visited, expected);
+    EXPECT_EQ(map->isEmpty(box), expected.empty());
+    const Vector3 small = random.vector(-4.5, 4.5);
+    const double gap = map->distance(small, 1.0) / std::sqrt(3.0);
+    const auto cube = [&small](double half) {
+      return Box{small - Vector3::Constant(half), small + Vector3::Constant(half)};
+    };
+    EXPECT_TRUE(gap == 0.0 || map->isEmpty(cube(0.999 * gap)));
+    EXPECT_FALSE(map->isEmpty(cube(map->distance(small, 10.0) + 1e-9)));
   }
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstdint>
 
@@ -18,6 +19,8 @@ class VoxelChunk {
   bool isOccupied(int x, int y, int z) const { return ((row(y, z) >> x) & 1U) != 0; }
   /// Whether any voxel of the block (x, y, z), each from 0 to 3, is occupied.
   bool hasInBlock(int x, int y, int z) const { return ((blocks_ >> (x + kBlocks * (y + kBlocks * z))) & 1U) != 0; }
+  /// Whether any voxel from `first` to `last`, each included, is occupied.
+  bool hasIn(const Eigen::Vector3i& first, const Eigen::Vector3i& last) const;
   int occupiedCount() const { return count_; }
   bool isFull() const { return count_ == kSide * kSide * kSide; }
 

@@ -59,6 +59,9 @@ class VoxelMap {
   };
   Nearest findNearest(const Vector3& p, double limit) const;
 
+  /// Whether no occupied voxel has a point in common with a box.
+  bool isEmpty(const Box& box) const;
+
   /// Calls visit(const VoxelIndex&) with every occupied voxel that has a point in common with a box, within bounds().
   template <class Visitor>
   void forEachOccupied(const Box& box, Visitor visit) const;

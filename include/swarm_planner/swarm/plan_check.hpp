@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/swarm/committed_motion.hpp"
 #include "swarm_planner/swarm/motion_doubt.hpp"
@@ -76,10 +77,13 @@ struct OtherMotion {
 struct CheckSurroundings {
   std::vector<PredictedObstacle> obstacles;
   std::vector<OtherMotion> uavs;
+  const VoxelMap* map = nullptr;  ///< null: nothing is mapped
+  double map_distance = 0.0;      ///< least, from its occupied voxels [m]
 
   void clear() {
     obstacles.clear();
     uavs.clear();
+    map = nullptr;
   }
 };
 
@@ -97,13 +101,14 @@ enum class CheckReason {
   kObstacle,
   kUav,
   kRestingPlace,  ///< an obstacle comes to where the motion rests
-  kOutOfArea      ///< farther than UAVs that plan at the same time were told
+  kOutOfArea,     ///< farther than UAVs that plan at the same time were told
+  kMap            ///< too close to an occupied voxel
 };
 /// In words, for operators. A string literal.
 const char* checkReasonText(CheckReason reason);
 
 /// Result of a check: the first thing found against the motion, in the order of CheckReason's bounds, then workspace,
-/// obstacles and UAVs as listed.
+/// map, obstacles and UAVs as listed.
 struct CheckVerdict {
   CheckReason reason = CheckReason::kAccepted;
   double time = 0.0;       ///< after the epoch, in the first piece that fails [s]

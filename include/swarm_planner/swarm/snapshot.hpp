@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 
 namespace swarm_planner {
@@ -22,6 +24,9 @@ struct Snapshot {
   /// What trackers report; need not be every obstacle, nor differ from the cycle before. Obstacles that are missing are
   /// remembered for track_timeout.
   std::vector<TrackedObstacle> obstacles;
+  /// What is mapped, in the planning frame; null: nothing. Another one from one cycle to the next is a map that has
+  /// changed.
+  std::shared_ptr<const VoxelMap> map;
 };
 
 }  // namespace swarm_planner

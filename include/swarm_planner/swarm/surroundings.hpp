@@ -24,6 +24,8 @@ class Surroundings {
   void setEpoch(double epoch);
   /// Predicts the tracks, which have to outlive the cycle, to the epoch. `now`: of the cycle [s].
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
+  /// What is mapped, in this cycle and until it is set anew; null: nothing. It has to outlive that.
+  void setMap(const VoxelMap* map) { map_ = map; }
   /// One more obstacle, seen at `stamp` [s]; after the tracks. It has to outlive the cycle.
   void addObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation);
   /// Nothing is known of the UAV; others need not keep clear of it.
@@ -85,6 +87,7 @@ class Surroundings {
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
   double epoch_ = 0.0;  ///< of the cycle [s]
+  const VoxelMap* map_ = nullptr;
   std::vector<PredictedTrack> obstacles_;
   std::vector<PredictedObstacle> checked_obstacles_;
   std::vector<Motions> motions_;
