@@ -23,6 +23,7 @@ void BodySpace::clear(const Workspace& workspace) {
   entries_.clear();
   workspace_ = workspace;
   comfort_ = 0.0;
+  map_.set(nullptr, 0.0);
 }
 
 void BodySpace::add(const GuideBody& body) {
@@ -38,6 +39,7 @@ void BodySpace::relieve(const Vector3& start) {
     if (distance < wanted) entry.relief = body.distance - distance + kRounding;
     if (entry.relief <= 0.0 && distance < wanted) entry.relief = kRounding;
   }
+  map_.relieve(start);
   workspace_.min = workspace_.min.cwiseMin(start);
   workspace_.max = workspace_.max.cwiseMax(start);
 }
@@ -73,6 +75,7 @@ double BodySpace::clearance(const TimedPoint& x) const {
     if (shape.distanceLowerBound(p) - wanted >= least) continue;
     least = std::min(least, shape.signedDistance(p) - wanted);
   }
+  if (least >= 0.0) least = std::min(least, map_.clearance(x.p));
   return least;
 }
 
@@ -91,9 +94,10 @@ ConvexPassage BodySpace::passage(const Entry& entry, const TimedPoint& from, con
 
 bool BodySpace::isClear(const TimedPoint& from, const TimedPoint& to) const {
   if (!isInWorkspace(from.p) || !isInWorkspace(to.p)) return false;
-  return std::all_of(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return !mayTouch(entry, from, to) || passage(entry, from, to).isClear();
-  });
+  return std::all_of(
+             entries_.begin(), entries_.end(),
+             [&](const Entry& entry) { return !mayTouch(entry, from, to) || passage(entry, from, to).isClear(); }) &&
+         map_.isClear(from.p, to.p);
 }
 
 std::optional<LineShare> BodySpace::blockedBy(std::size_t i, const TimedPoint& from, const TimedPoint& to) const {

@@ -47,6 +47,13 @@ void addBlocked(const BodySpace& space, const TimedPoint& from, const TimedPoint
     sizes.smallest = std::min(sizes.smallest, body.shape.radii().minCoeff() + body.distance);
     sizes.largest = std::max(sizes.largest, body.shape.halfExtents().maxCoeff() + body.distance);
   }
+  for (double share = 0.0; share < 1.0;) {
+    const std::optional<LineShare> part = space.map().firstBlocked(from.p, to.p, share);
+    if (!part) break;
+    stretches.add(way + part->begin * length, way + part->end * length);
+    sizes.in_map = true;
+    share = part->end;
+  }
   const std::optional<LineShare> inside = space.shareInWorkspace(from.p, to.p);
   if (!inside) {
     stretches.add(way, way + length);

@@ -7,8 +7,13 @@
 namespace swarm_planner {
 namespace {
 
-constexpr std::uint32_t kRenewal = 4;  // rounds until a guide that is clear is compared with a new one
-constexpr std::uint32_t kRetry = 5;    // rounds until a search that found nothing is repeated
+constexpr std::uint32_t kRenewal = 4;      // rounds until a guide that is clear is compared with a new one
+constexpr std::uint32_t kRetry = 5;        // rounds until a search that found nothing is repeated
+constexpr std::uint32_t kMapRenewal = 16;  // the same round what a map has, where searches take longer
+constexpr std::uint32_t kMapRetry = 20;
+constexpr double kMapCell = 1.25;      // of the distance to keep: lattices see doors little wider than twice that
+constexpr double kMapRegion = 6.0;     // half extent that what a map has is taken for [m]
+constexpr double kLevel = 2.5;         // cells above and below start and goal in a level search
 constexpr double kGain = 0.15;         // of the cost, that a new guide saves if it replaces one that is clear
 constexpr double kFinest = 30.0;       // cells on the straight line to the goal at most
 constexpr double kCoarsest = 10.0;     // at least
@@ -83,6 +88,7 @@ void GuidePlanner::sortBodies(const GuideScene& scene) {
 void GuidePlanner::gather(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav, const Box& region,
                           double time) {
   space_.clear(request.workspace);
+  space_.setMap(scene.map.get(), scene.map_distance);
   const auto first = std::lower_bound(by_x_.begin(), by_x_.end(), region.min.x() - widest_,
                                       [this](std::uint32_t i, double x) { return boxes_[i].min.x() < x; });
   for (auto i = first; i != by_x_.end() && boxes_[*i].min.x() <= region.max.x(); ++i) {
@@ -138,14 +144,16 @@ void GuidePlanner::assess(const GuideScene& scene, const GuideRequest& request, 
     return;
   }
   blockages_[uav] = *blockage;
+  if (blockage->in_map) blockages_[uav].smallest = std::min(blockage->smallest, scene.map_distance);
   ++ages_[uav];
   space_.setComfort(-settings_.slack);
   const bool is_clear = has_guide && isClearStill(request, restOf(answer.path, request.start), answer);
   if (is_clear || (has_guide && repair(request, answer))) {
-    if (ages_[uav] >= kRenewal) wants_.push_back({uav, static_cast<double>(waits_[uav]), true});
+    if (ages_[uav] >= (blockage->in_map ? kMapRenewal : kRenewal))
+      wants_.push_back({uav, static_cast<double>(waits_[uav]), true});
     return;
   }
-  if (answer.state == GuideState::kNoWay && ages_[uav] < kRetry) return;
+  if (answer.state == GuideState::kNoWay && ages_[uav] < (blockage->in_map ? kMapRetry : kRetry)) return;
   if (answer.state == GuideState::kNotNeeded) answer.state = GuideState::kWaiting;
   wants_.push_back({uav, kMissing + waits_[uav] - blockage->begin / request.speed, false});
 }
@@ -251,31 +259,58 @@ void GuidePlanner::search(const GuideScene& scene, const GuideRequest& request, 
       take(request, want, *goal, answer);
       return;
     }
-    if (!attempt.far) {
-      // A lattice that is too fine for what blocks does not come round it; one that is too coarse sees no gap.
-      attempt.cell *= outcome == SearchOutcome::kBudgetSpent ? 2.0 : 0.5;
-      attempt.comfort = attempt.comfort && outcome == SearchOutcome::kBudgetSpent;
-    }
-    attempt.far = false;
+    attempt = nextAttempt(attempt, outcome, blockage.in_map);
   }
   ages_[want.uav] = 0;
   if (!want.is_renewal) answer.state = GuideState::kNoWay;
+}
+
+GuidePlanner::Attempt GuidePlanner::nextAttempt(const Attempt& attempt, SearchOutcome outcome, bool in_map) const {
+  Attempt next = attempt;
+  next.far = false;
+  const bool is_spent = outcome == SearchOutcome::kBudgetSpent;
+  if (attempt.far) return next;
+  next.comfort = attempt.comfort && is_spent;
+  if (in_map) {
+    // Doors are as wide as they are: without comfort first, then above and below, then more closely.
+    next.level = attempt.level && (attempt.comfort || is_spent);
+    if (is_spent) next.cell *= 1.5;
+    if (!is_spent && !attempt.comfort && !attempt.level) next.cell *= 0.5;
+  } else {
+    // A lattice that is too fine for what blocks does not come round it; one that is too coarse sees no gap.
+    next.cell *= is_spent ? 2.0 : 0.5;
+  }
+  return next;
+}
+
+void GuidePlanner::shapeQuery(const GuideScene& scene, const Blockage& blockage, const Vector3& towards,
+                              const Attempt& attempt) {
+  const double distance = std::max((towards - query_.start).norm(), blockage.smallest);
+  query_.budget = blockage.in_map ? kMapSearchBudget : kSearchBudget;
+  query_.cell = attempt.cell * std::clamp(kCellShare * blockage.smallest, distance / kFinest, distance / kCoarsest);
+  if (blockage.in_map) query_.cell = std::min(query_.cell, attempt.cell * kMapCell * scene.map_distance);
+  const double largest = blockage.in_map ? std::max(blockage.largest, kMapRegion) : blockage.largest;
+  query_.region = Box();
+  query_.region.include(query_.start);
+  query_.region.include(towards);
+  const double low = query_.region.min.z();
+  const double high = query_.region.max.z();
+  query_.region = grown(query_.region, kMargin * (distance + largest));
+  if (!blockage.in_map || !attempt.level) return;
+  query_.region.min.z() = low - kLevel * query_.cell;
+  query_.region.max.z() = high + kLevel * query_.cell;
 }
 
 std::optional<GuidePlanner::Goal> GuidePlanner::prepare(const GuideScene& scene, const GuideRequest& request,
                                                         std::uint32_t uav, const Attempt& attempt) {
   const Blockage& blockage = blockages_[uav];
   const Vector3 towards = request.path.at(attempt.far ? blockage.far_end : blockage.near_end);
-  const double distance = std::max((towards - request.start).norm(), blockage.smallest);
   query_.start = request.start;
   query_.pace = {0.0, request.speed};
-  query_.budget = kSearchBudget;
-  query_.cell = attempt.cell * std::clamp(kCellShare * blockage.smallest, distance / kFinest, distance / kCoarsest);
-  query_.region = Box();
-  query_.region.include(request.start);
-  query_.region.include(towards);
-  query_.region = grown(query_.region, kMargin * (distance + blockage.largest));
-  gather(scene, request, uav, query_.region, std::min(kLongestTime, 2.0 * kMargin * distance / request.speed));
+  shapeQuery(scene, blockage, towards, attempt);
+  const double distance = (towards - request.start).norm();
+  gather(scene, request, uav, query_.region,
+         std::min(kLongestTime, 2.0 * kMargin * std::max(distance, blockage.smallest) / request.speed));
   space_.setComfort(attempt.comfort ? settings_.comfort : 0.0);
   space_.relieve(request.start);
   gatherTraffic(scene, uav, query_.region);

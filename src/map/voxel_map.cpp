@@ -30,14 +30,12 @@ class NearestSearch {
 
   void lookIn(const VoxelChunk& chunk, const VoxelIndex& corner) {
     corner_ = corner;
-    const Vector3 low = corner.cast<double>();
-    if (squaredGap(low, kSide) >= best_) return;
+    if (squaredGap({{0, 0, 0}, {kSide - 1, kSide - 1, kSide - 1}}) >= best_) return;
     for (int z = 0; z < VoxelChunk::kBlocks; ++z) {
       for (int y = 0; y < VoxelChunk::kBlocks; ++y) {
         for (int x = 0; x < VoxelChunk::kBlocks; ++x) {
-          if (!chunk.hasInBlock(x, y, z)) continue;
-          const VoxelIndex block = VoxelChunk::kBlock * VoxelIndex(x, y, z);
-          if (squaredGap(low + block.cast<double>(), VoxelChunk::kBlock) < best_) lookInBlock(chunk, block);
+          const VoxelChunk::Range& range = chunk.block(x, y, z);
+          if (!range.isEmpty() && squaredGap(range) < best_) lookInBlock(chunk, range);
         }
       }
     }
@@ -47,20 +45,24 @@ class NearestSearch {
   const Vector3& point() const { return point_; }
 
  private:
-  double squaredGap(const Vector3& low, double size) const {
-    const double x = gapTo(p_.x(), low.x(), low.x() + size);
-    const double y = gapTo(p_.y(), low.y(), low.y() + size);
-    const double z = gapTo(p_.z(), low.z(), low.z() + size);
-    return x * x + y * y + z * z;
+  double squaredGap(const VoxelChunk::Range& range) const {
+    double squared = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<int>(axis);
+      const double gap = gapTo(p_[i], corner_[i] + range.first[axis], corner_[i] + range.last[axis] + 1.0);
+      squared += gap * gap;
+    }
+    return squared;
   }
 
-  void lookInBlock(const VoxelChunk& chunk, const VoxelIndex& block) {
-    const std::uint32_t mask = 0xffU << static_cast<unsigned>(block.x());
-    for (int z = block.z(); z < block.z() + VoxelChunk::kBlock; ++z) {
+  void lookInBlock(const VoxelChunk& chunk, const VoxelChunk::Range& range) {
+    const auto x = static_cast<unsigned>(range.first[0]) / VoxelChunk::kBlock;
+    const std::uint32_t mask = 0xffU << (x * VoxelChunk::kBlock);
+    for (int z = range.first[2]; z <= range.last[2]; ++z) {
       const double above = corner_.z() + z;
       const double dz = gapTo(p_.z(), above, above + 1.0);
       if (dz * dz >= best_) continue;
-      for (int y = block.y(); y < block.y() + VoxelChunk::kBlock; ++y) {
+      for (int y = range.first[1]; y <= range.last[1]; ++y) {
         const std::uint32_t row = chunk.row(y, z) & mask;
         if (row == 0) continue;
         const double across = corner_.y() + y;
@@ -176,11 +178,15 @@ VoxelMap::Nearest VoxelMap::findNearest(const Vector3& p, double limit) const {
   if ((first.array() > last.array()).any()) return nearest;
   const double limit_in_voxels = nearest.distance / resolution_;
   NearestSearch search(p / resolution_, limit_in_voxels);
+  // What is near first: most of the others are then not worth a look.
+  const VoxelIndex own = voxelAt(p).unaryExpr([](int voxel) { return chunkOf(voxel); });
+  const VoxelChunk* around_p = chunk(own);
+  if (around_p != nullptr) search.lookIn(*around_p, kSide * own);
   for (int z = chunkOf(first.z()); z <= chunkOf(last.z()); ++z) {
     for (int y = chunkOf(first.y()); y <= chunkOf(last.y()); ++y) {
       for (int x = chunkOf(first.x()); x <= chunkOf(last.x()); ++x) {
         const VoxelChunk* part = chunk({x, y, z});
-        if (part != nullptr) search.lookIn(*part, kSide * VoxelIndex(x, y, z));
+        if (part != nullptr && part != around_p) search.lookIn(*part, kSide * VoxelIndex(x, y, z));
       }
     }
   }

@@ -30,6 +30,22 @@ void addWorkspaceViolations(const FlightBounds& bounds, const SegmentPoints& poi
   }
 }
 
+void addCorridorViolations(const UavProblem& problem, const PlanPoints& points, Violation& violation) {
+  const std::size_t first = firstConstrainedPoint(problem.bounds);
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    const CorridorSegment& segment = problem.corridor.segments[k];
+    // The start is as it is.
+    for (std::size_t i = std::max<std::size_t>(first, k == 0 ? 1 : 0); i < 4; ++i) {
+      const Vector3& point = points[k][i];
+      for (std::size_t j = 0; j < segment.count; ++j) violation.add(segment.planes[j].half_space.clearance(point));
+      for (int axis = 0; axis < 3; ++axis) {
+        violation.add(point[axis] - segment.window.min[axis]);
+        violation.add(segment.window.max[axis] - point[axis]);
+      }
+    }
+  }
+}
+
 double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative) {
   double least = half_space.clearance(relative[0]);
   for (std::size_t i = 1; i < relative.size(); ++i) least = std::min(least, half_space.clearance(relative[i]));
@@ -120,6 +136,7 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan, const
     addBoundViolations(problem.bounds, plan.knots[k + 1], plan.dt, violation);
     if (bounded) addWorkspaceViolations(problem.bounds, points[k], violation);
   }
+  if (problem.corridor.active) addCorridorViolations(problem, points, violation);
   const Box box = planBox(points);
   auto plane = planes.begin();
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {

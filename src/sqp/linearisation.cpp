@@ -15,10 +15,12 @@ constexpr double kNormBand = 0.6;  // of a norm limit, below which the iterate g
 
 /// Sources of rows: the limits' own at the iterate, their cuts by the number of the answer, the workspace's faces, and
 /// two per body, since a knot belongs to two segments.
-constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 200;
+constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 200, kCorridorSource = 1U << 31U;
 
 // A knot's position has rows of two segments and of two faces of the workspace per axis.
 static_assert(2 * kMostSegmentPlanes + 2 * 6 <= kMaxBodyRows, "a stage cannot hold what is nearest");
+static_assert(2 * (kMostSegmentPlanesInMap + FreePolyhedron::kMostPlanes) + 2 * 6 <= kMaxBodyRows,
+              "a stage cannot hold what is nearest in a map");
 
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
 void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {
@@ -103,6 +105,34 @@ void addBodyRows(const UavProblem& problem, const SegmentPlanes& planes, Qp& qp)
   }
 }
 
+/// Whether the segment before has a plane that asks as much.
+bool isRepeated(const CorridorSegment& before, const CorridorPlane& plane) {
+  constexpr double kSame = 1e-9;
+  const auto end = before.planes.begin() + static_cast<std::ptrdiff_t>(before.count);
+  return std::any_of(before.planes.begin(), end, [&plane](const CorridorPlane& other) {
+    return other.identity == plane.identity && other.half_space.offset >= plane.half_space.offset - kSame &&
+           (other.half_space.n - plane.half_space.n).cwiseAbs().maxCoeff() <= kSame;
+  });
+}
+
+void addCorridorRows(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp) {
+  const auto first_point = static_cast<int>(firstConstrainedPoint(problem.bounds));
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const CorridorSegment& segment = problem.corridor.segments[i];
+    const SegmentPoints points = segmentPoints(iterate.knots[i], iterate.knots[i + 1], iterate.dt);
+    for (std::size_t plane = 0; plane < segment.count; ++plane) {
+      const CorridorPlane& limit = segment.planes[plane];
+      const bool is_repeated = k > 0 && isRepeated(problem.corridor.segments[i - 1], limit);
+      const RowSource source = kCorridorSource + 2 * limit.identity;
+      for (int j = first_point + (is_repeated && first_point == 0 ? 1 : 0); j < 4; ++j) {
+        if (limit.half_space.clearance(points[static_cast<std::size_t>(j)]) > band) continue;
+        addControlPointRow(qp, k, j, limit.half_space.n, limit.half_space.offset, source);
+      }
+    }
+  }
+}
+
 bool hasOneTangent(const StageFrames& frames) {
   constexpr double kSameDirection = 1e-9;
   return std::all_of(frames.begin() + 1, frames.end(), [&](const StageFrame& frame) {
@@ -176,6 +206,7 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
   }
   findSeparatingPlanes(problem, iterate, band, planes);
   addBodyRows(problem, planes, qp);
+  if (problem.corridor.active) addCorridorRows(problem, iterate, band, qp);
 }
 
 void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp) {

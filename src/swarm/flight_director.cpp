@@ -31,7 +31,8 @@ FlightDirector::FlightDirector(const Mission& mission, const Parameters& paramet
   waiting_.reserve(mission.scenario.uavs.size());
 }
 
-void FlightDirector::direct(double epoch, const UavMeasurement& measured, UavRecord& record) const {
+void FlightDirector::direct(double epoch, const UavMeasurement& measured, UavRecord& record,
+                            const VoxelMap* map) const {
   FlightTask& task = record.task;
   lookAtFloor(record);
   if (measured.v.norm() > kSlow) task.quiet_since = epoch;
@@ -41,7 +42,7 @@ void FlightDirector::direct(double epoch, const UavMeasurement& measured, UavRec
       hold(epoch, record);
       break;
     case FlightMode::kLanding:
-      land(epoch, measured, record);
+      land(epoch, measured, record, map);
       break;
     case FlightMode::kLanded:
       if (!task.placed) task.follow(record.start.p, record.start.p, 0.0, epoch);
@@ -109,7 +110,7 @@ void FlightDirector::hold(double epoch, UavRecord& record) const {
   task.follow(task.place, task.place, 0.0, epoch);
 }
 
-void FlightDirector::land(double epoch, const UavMeasurement& measured, UavRecord& record) const {
+void FlightDirector::land(double epoch, const UavMeasurement& measured, UavRecord& record, const VoxelMap* map) const {
   FlightTask& task = record.task;
   // Whatever stands beside it: who is on the ground already stays there.
   const bool is_on_ground = measured.p.z() < parameters_.landing.ground_height + kNearGround;
@@ -120,7 +121,7 @@ void FlightDirector::land(double epoch, const UavMeasurement& measured, UavRecor
   if (!brake(epoch, record) || task.phase == LandingPhase::kBraking) return;
   const bool is_above = horizontalDistance(record.start.p, task.site) < kAtSite;
   if (task.phase == LandingPhase::kDescending) {
-    descend(epoch, measured, record);
+    descend(epoch, measured, record, map);
   } else if (is_above && record.start.v.head<2>().norm() < kSlow) {
     const double height = std::max(record.start.p.z(), task.site.z());
     task.follow(Vector3(task.site.x(), task.site.y(), height), task.site, descentSpeed(), epoch);
@@ -140,7 +141,14 @@ void FlightDirector::giveUpSite(double epoch, UavRecord& record) {
   task.next_search = epoch;
 }
 
-void FlightDirector::descend(double epoch, const UavMeasurement& measured, UavRecord& record) const {
+bool FlightDirector::isAtFloor(const VoxelMap* map, const Vector3& place) const {
+  if (map == nullptr) return false;
+  const double least = parameters_.limits.uav_radius + parameters_.limits.tracking_error;
+  return map->distance(place - kAtGround * Vector3::UnitZ(), least) < least;
+}
+
+void FlightDirector::descend(double epoch, const UavMeasurement& measured, UavRecord& record,
+                             const VoxelMap* map) const {
   FlightTask& task = record.task;
   if (horizontalDistance(record.start.p, task.site) > kOffSite) {
     const Vector3 above(task.site.x(), task.site.y(), record.start.p.z());
@@ -156,8 +164,11 @@ void FlightDirector::descend(double epoch, const UavMeasurement& measured, UavRe
   // Ground that is higher than it was said to be: the UAV is to go down and does not move.
   const bool is_to_descend = motion.at(epoch + kQuietTime).p.z() < measured.p.z() - kAtGround;
   const bool is_held_up = is_to_descend && epoch - task.quiet_since > kQuietTime;
+  // So does a floor that is mapped, but the motion knows of it.
+  const bool ends_at_floor = isAtFloor(map, motion.restingPlace()) && epoch - task.quiet_since > kQuietTime;
   const bool ends_down = motion.restingPlace().z() < task.site.z() + kAtGround;
-  if ((is_down && ends_down) || is_held_up) task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
+  if ((is_down && ends_down) || is_held_up || ends_at_floor)
+    task.enter(transition(task.mode, FlightEvent::kTouchdown).mode);
 }
 
 double FlightDirector::descentSpeed() const { return std::min(parameters_.landing.speed, approach_speed_); }
@@ -195,7 +206,7 @@ void FlightDirector::releaseBlockedSites(double epoch, const std::vector<Reason>
 }
 
 void FlightDirector::assignSites(double epoch, const std::vector<TrackedObstacle>& obstacles,
-                                 const std::vector<Reason>& judged, std::vector<UavRecord>& uavs) {
+                                 const std::vector<Reason>& judged, std::vector<UavRecord>& uavs, const VoxelMap* map) {
   waiting_.clear();
   bool lands = false;
   for (std::size_t i = 0; i < uavs.size(); ++i) {
@@ -206,7 +217,7 @@ void FlightDirector::assignSites(double epoch, const std::vector<TrackedObstacle
     if (searches && judged[i] == Reason::kNone) waiting_.push_back(i);
   }
   if (!lands) return;
-  sites_.begin(obstacles, epoch);
+  sites_.begin(obstacles, epoch, map);
   takeColumns(uavs);
   releaseBlockedSites(epoch, judged, uavs);
   // From the lowest up: of UAVs above each other it is the upper ones that give way, at their own height.

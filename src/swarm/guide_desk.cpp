@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace swarm_planner {
 namespace {
@@ -43,6 +44,7 @@ GuideDesk::GuideDesk(const Parameters& parameters, const std::optional<Workspace
       planner_(settingsOf(parameters), uavs, max_obstacles + 2 * uavs) {
   scene_.bodies.reserve(max_obstacles + 2 * uavs);
   scene_.flights.resize(uavs);
+  scene_.map_distance = obstacleDistance(parameters.limits);
   scene_.spacing = kPointSpacing * parameters.time.sampling_time;
 }
 
@@ -55,11 +57,15 @@ void GuideDesk::takeAnswers(std::vector<UavRecord>& uavs) {
 }
 
 void GuideDesk::ask(double epoch, const std::vector<TrackedObstacle>& tracks, const std::vector<ForeignBody>& foreign,
-                    std::vector<UavRecord>& uavs) {
+                    const std::shared_ptr<const VoxelMap>& map, std::vector<UavRecord>& uavs) {
   if (turn_.load(std::memory_order_relaxed) != Turn::kCycle) return;
   // What is found is used a cycle later.
   time_zero_ = epoch + parameters_.time.cycle_period;
   scene_.bodies.clear();
+  if (scene_.map != map) {
+    last_map_ = std::move(scene_.map);
+    scene_.map = parameters_.limits.avoidance ? map : nullptr;
+  }
   for (const TrackedObstacle& track : tracks)
     addObstacle(track.shape, track.stamp, inflationOf(track, parameters_.input));
   for (const ForeignBody& body : foreign) addObstacle(body.shape, body.stamp, body.inflation);
@@ -73,6 +79,7 @@ void GuideDesk::ask(double epoch, const std::vector<TrackedObstacle>& tracks, co
 bool GuideDesk::search() {
   Turn asked = Turn::kAsked;
   if (!turn_.compare_exchange_strong(asked, Turn::kSearch, std::memory_order_acquire)) return false;
+  last_map_.reset();
   planner_.plan(scene_, requests_, answers_);
   turn_.store(Turn::kAnswered, std::memory_order_release);
   return true;

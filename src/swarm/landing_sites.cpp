@@ -13,6 +13,7 @@ constexpr double kRingSpacing = 1.02;  // of spacing: neighbours on a ring are t
 constexpr double kLookAhead = 20.0;    // that an obstacle must not come to a site [s]; the check's
 constexpr double kSweepStep = 0.5;     // between places of a moving obstacle [m]
 constexpr double kMostSweepSteps = 200;
+constexpr double kMapStep = 0.5;  // of the distance to keep, between places of a column
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTwoPi = 6.283185307179586;
 
@@ -37,8 +38,9 @@ LandingSites::LandingSites(const Parameters& parameters, const std::optional<Wor
   taken_.reserve(uav_count);
 }
 
-void LandingSites::begin(const std::vector<TrackedObstacle>& obstacles, double epoch) {
+void LandingSites::begin(const std::vector<TrackedObstacle>& obstacles, double epoch, const VoxelMap* map) {
   obstacles_ = &obstacles;
+  map_ = map;
   epoch_ = epoch;
   taken_.clear();
   effort_ = 0;
@@ -68,6 +70,7 @@ bool LandingSites::isFree(std::size_t uav, const Vector3& bottom, double top, do
     ++effort_;
     if (column.uav != uav && (column.place - bottom).head<2>().squaredNorm() < apart * apart) return false;
   }
+  if (isMapped(bottom, top)) return false;
   return std::none_of(obstacles_->begin(), obstacles_->end(), [&](const TrackedObstacle& obstacle) {
     ++effort_;
     return isBlockedBy(obstacle, bottom, top);
@@ -77,6 +80,17 @@ bool LandingSites::isFree(std::size_t uav, const Vector3& bottom, double top, do
 bool LandingSites::isInside(const Vector3& site) const {
   return (site.head<2>().array() >= bounds_.min.head<2>().array()).all() &&
          (site.head<2>().array() <= bounds_.max.head<2>().array()).all();
+}
+
+bool LandingSites::isMapped(const Vector3& bottom, double top) const {
+  if (map_ == nullptr) return false;
+  const double least = parameters_.limits.uav_radius + parameters_.limits.tracking_margin;
+  // The ground itself may be mapped, as thick as a voxel: a UAV comes down as far as the check lets it.
+  const double foot = bottom.z() + least + 2.0 * map_->resolution();
+  for (double z = top; z > foot; z -= kMapStep * least) {
+    if (map_->distance(Vector3(bottom.x(), bottom.y(), z), least) < least) return true;
+  }
+  return false;
 }
 
 bool LandingSites::isBlockedBy(const TrackedObstacle& obstacle, const Vector3& bottom, double top) const {

@@ -161,4 +161,18 @@ double bearableShare(const CommittedMotion& flown, const OtherMotion& other, con
   return 0.0;
 }
 
+void limitDoubts(double epoch, const CommittedMotion& flown, const CheckLimits& limits, CommittedMotion& rest,
+                 std::vector<OtherMotion>& others) {
+  bool has_rest = false;
+  for (OtherMotion& other : others) {
+    if (other.doubt.isNone()) continue;
+    if (!has_rest) {
+      rest = flown;
+      rest.dropPieces(rest.endedPieces(epoch));
+      has_rest = true;
+    }
+    other.doubt = other.doubt.times(bearableShare(rest, other, limits));
+  }
+}
+
 }  // namespace swarm_planner

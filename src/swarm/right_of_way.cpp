@@ -56,7 +56,7 @@ RightOfWay::RightOfWay(const Mission& mission, const Parameters& parameters)
 }
 
 void RightOfWay::direct(double epoch, const std::vector<TrackedObstacle>& obstacles, const std::vector<Reason>& judged,
-                        const NeighbourLists& neighbours, std::vector<UavRecord>& uavs) {
+                        const NeighbourLists& neighbours, std::vector<UavRecord>& uavs, const VoxelMap* map) {
   if (!parameters_.limits.right_of_way) return;
   last_epoch_ = epoch_;
   epoch_ = epoch;
@@ -73,7 +73,7 @@ void RightOfWay::direct(double epoch, const std::vector<TrackedObstacle>& obstac
     if (first.uav == second.uav) return (first.uav == a) != (second.uav == b) ? first.uav == a : a < b;
     return first.precedes(second);
   });
-  wayside_.begin(obstacles, epoch);
+  wayside_.begin(obstacles, epoch, map);
   searches_ = 0;
   for (const std::size_t i : held_up_) resolve(i, neighbours);
 }

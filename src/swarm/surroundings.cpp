@@ -31,8 +31,9 @@ Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, 
   neighbours_.reserve(uav_count);
 }
 
-void Surroundings::setEpoch(double epoch) {
+void Surroundings::setEpoch(double epoch, const VoxelMap* map) {
   epoch_ = epoch;
+  map_ = map;
   asides_.clear();
 }
 

@@ -115,7 +115,7 @@ class SwarmPlanner::Impl {
     if (planning) {
       guides.takeAnswers(uavs);
       planAll(snapshot, epoch, stopwatch, budget);
-      guides.ask(epoch, tracks.tracks(), foreign_bodies, uavs);
+      guides.ask(epoch, tracks.tracks(), foreign_bodies, snapshot.map, uavs);
     }
     report.cycle_time = stopwatch.elapsed();
   }
@@ -220,9 +220,8 @@ class SwarmPlanner::Impl {
   }
 
   void planAll(const Snapshot& snapshot, double epoch, const Stopwatch& stopwatch, double budget) {
-    surroundings.setEpoch(epoch);
+    surroundings.setEpoch(epoch, snapshot.map.get());
     surroundings.setObstacles(tracks.tracks(), snapshot.now);
-    surroundings.setMap(snapshot.map.get());
     foreign_bodies.clear();
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       // One that has joined and is not seen is still where it was as a foreign one.
@@ -237,9 +236,9 @@ class SwarmPlanner::Impl {
         surroundings.setDoubt(i, uavs[i].doubt(parameters.input), uavs[i].aside ? &*uavs[i].aside : nullptr);
       }
     }
-    director.assignSites(epoch, tracks.tracks(), judged, uavs);
+    director.assignSites(epoch, tracks.tracks(), judged, uavs, snapshot.map.get());
     surroundings.findNeighbours();
-    right_of_way.direct(epoch, tracks.tracks(), judged, surroundings.neighbours(), uavs);
+    right_of_way.direct(epoch, tracks.tracks(), judged, surroundings.neighbours(), uavs, snapshot.map.get());
     order.build(surroundings.neighbours(), first);
     std::atomic<bool> planned{false};
     for (std::size_t round = 0; round < order.rounds(); ++round) {
@@ -302,7 +301,7 @@ class SwarmPlanner::Impl {
       } else {
         uav.predictStart(snapshot.uavs[i], epoch, parameters, bounds);
       }
-      director.direct(epoch, snapshot.uavs[i], uav);
+      director.direct(epoch, snapshot.uavs[i], uav, snapshot.map.get());
     } else if (isPlannedFor(uav.task.mode)) {
       uav.loseSight(parameters);
     }

@@ -40,6 +40,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
     : parameters_(parameters),
       limits_(makeCheckLimits(parameters, workspace ? &*workspace : nullptr)),
       workspace_(limits_.bounds.workspace),
+      mapped_(parameters),
       sqp_(std::make_unique<GeneratedSolver>(std::move(tables), kMostQpChanges)) {
   problem_.parameters = &parameters;
   problem_.dt = parameters.time.sampling_time;
@@ -107,7 +108,7 @@ void UavPlanner::survey(std::size_t uav, double epoch, const UavRecord& record, 
   // What is not known of its own place is demanded of its distances.
   const MotionDoubt own = record.doubt(parameters_.input);
   for (OtherMotion& other : check_.uavs) other.doubt = other.doubt.with(own);
-  limitDoubts(epoch, record.motions.flown());
+  limitDoubts(epoch, record.motions.flown(), limits_, kept_, check_.uavs);
 }
 
 void UavPlanner::publish(std::size_t uav, double epoch, const UavRecord& record, Surroundings& surroundings) const {
@@ -178,6 +179,7 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     coastingPlan(record.start, epoch, problem_.dt, shifted_);
   }
   plan_ = shifted_;
+  mapped_.findCorridor(check_.map, shifted_, problem_);
   guessActiveRows(epoch, record);
   SqpResult result = sqp_.solve(problem_, plan_, record.active);
   if (!result.solved) plan_ = shifted_;
@@ -224,9 +226,11 @@ void UavPlanner::keepJerkLimit(const KinematicState& start) {
 void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
   along_ = shifted_;
   along_active_.count = 0;
+  problem_.corridor.active = false;
   std::swap(problem_.bodies, no_bodies_);
   const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
   std::swap(problem_.bodies, no_bodies_);
+  mapped_.findCorridor(check_.map, along_, problem_);
   along_active_.count = 0;
   SqpResult other = sqp_.solve(problem_, along_, along_active_);
   const int iterations = result.iterations + alone.iterations + other.iterations;
@@ -238,19 +242,6 @@ void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
   }
   result.iterations = iterations;
   result.qp_iterations = qp_iterations;
-}
-
-void UavPlanner::limitDoubts(double epoch, const CommittedMotion& flown) {
-  bool is_kept = false;
-  for (OtherMotion& other : check_.uavs) {
-    if (other.doubt.isNone()) continue;
-    if (!is_kept) {
-      kept_ = flown;
-      kept_.dropPieces(kept_.endedPieces(epoch));
-      is_kept = true;
-    }
-    other.doubt = other.doubt.times(bearableShare(kept_, other, limits_));
-  }
 }
 
 CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan) {
@@ -343,7 +334,7 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
     report.max_slack = planViolation(problem_, plan_).largest;
   }
   const PredictedClearance clearance = predictedClearance(problem_, plan_);
-  report.obstacle_clearance = clearance.obstacle;
+  report.obstacle_clearance = std::min(clearance.obstacle, mapped_.clearance(check_.map, plan_));
   report.pair_distance = clearance.pair;
   report.planned = record.planned;
   report.deviation = record.deviation.norm();

@@ -45,8 +45,9 @@ Wayside::Wayside(const Parameters& parameters, const std::optional<Workspace>& w
   others_.reserve(uav_count);
 }
 
-void Wayside::begin(const std::vector<TrackedObstacle>& obstacles, double epoch) {
+void Wayside::begin(const std::vector<TrackedObstacle>& obstacles, double epoch, const VoxelMap* map) {
   obstacles_ = &obstacles;
+  map_ = map;
   epoch_ = epoch;
 }
 
@@ -152,6 +153,7 @@ bool Wayside::isClearOfObstacles(const Vector3& q, bool for_long) const {
   const LimitParameters& limits = parameters_.limits;
   // A UAV that waits may have used its margin up.
   const double least = limits.uav_radius + (for_long ? limits.tracking_margin : limits.tracking_error);
+  if (map_ != nullptr && map_->distance(q, least) < least) return false;
   return std::none_of(near_.begin(), near_.end(), [&](const TrackedObstacle* obstacle) {
     const bool moves = for_long && obstacle->shape.velocity().squaredNorm() > 0.0;
     for (std::size_t i = 0; i < (moves ? kLookAhead.size() : 1); ++i) {

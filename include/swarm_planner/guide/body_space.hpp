@@ -11,6 +11,7 @@
 #include "swarm_planner/config/scenario.hpp"
 #include "swarm_planner/guide/convex_passage.hpp"
 #include "swarm_planner/guide/free_space.hpp"
+#include "swarm_planner/guide/map_space.hpp"
 #include "swarm_planner/problem/segment.hpp"
 
 namespace swarm_planner {
@@ -31,7 +32,7 @@ struct GuideBody {
   Box boxUntil(double t) const;
 };
 
-/// Bodies and a workspace that a guide keeps clear of. Takes no heap while it has room.
+/// Bodies, a workspace and a map that a guide keeps clear of. Takes no heap while it has room.
 class BodySpace : public FreeSpace {
  public:
   /// Farther than this free distances are not told apart [m].
@@ -40,13 +41,19 @@ class BodySpace : public FreeSpace {
   /// Empty, with room for `capacity` bodies.
   explicit BodySpace(std::size_t capacity) { entries_.reserve(capacity); }
 
+  /// Nothing but the workspace.
   void clear(const Workspace& workspace);
+  /// `distance` is to be kept from the occupied voxels of `map` [m], which must outlive its use here; null: none.
+  void setMap(const VoxelMap* map, double distance) { map_.set(map, distance); }
   /// The body must outlive its use here. Left out if there is no room.
   void add(const GuideBody& body);
   /// Of a body that is nearer to `start` than demanded only so much is demanded as it has there; of the workspace, too.
   void relieve(const Vector3& start);
   /// So much more than demanded is kept from now on [m]; not from what was relieved.
-  void setComfort(double comfort) { comfort_ = comfort; }
+  void setComfort(double comfort) {
+    comfort_ = comfort;
+    map_.setComfort(comfort);
+  }
 
   std::size_t size() const { return entries_.size(); }
   const GuideBody& body(std::size_t i) const { return *entries_[i].body; }
@@ -55,6 +62,7 @@ class BodySpace : public FreeSpace {
   bool isClear(const TimedPoint& from, const TimedPoint& to) const override;
   /// The part of a flight that is too near to body `i`, if there is one.
   std::optional<LineShare> blockedBy(std::size_t i, const TimedPoint& from, const TimedPoint& to) const;
+  const MapSpace& map() const { return map_; }
   bool isInWorkspace(const Vector3& p) const;
   /// The part of a line that lies in the workspace, if there is one.
   std::optional<LineShare> shareInWorkspace(const Vector3& a, const Vector3& b) const;
@@ -72,6 +80,7 @@ class BodySpace : public FreeSpace {
   ConvexPassage passage(const Entry& entry, const TimedPoint& from, const TimedPoint& to) const;
 
   std::vector<Entry> entries_;
+  MapSpace map_;
   Workspace workspace_;
   double comfort_ = 0.0;
 };

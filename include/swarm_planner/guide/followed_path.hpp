@@ -39,6 +39,7 @@ struct Blockage {
   bool far_to_end = false;  ///< likewise
   double smallest = 0.0;    ///< least half width of what blocks, with the distance to keep [m]
   double largest = 0.0;     ///< greatest half extent of it [m]
+  bool in_map = false;      ///< occupied voxels are among it, whose extent is not known
 };
 
 /// How far ahead is looked.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,8 +14,10 @@ namespace swarm_planner {
 /// What all guides of one round keep clear of. Times count from the round's time zero.
 struct GuideScene {
   std::vector<GuideBody> bodies;
-  std::vector<PlannedFlight> flights;  ///< of every UAV, by its index; those not known have an empty box
-  double spacing = 0.0;                ///< of the points of a flight [s]
+  std::vector<PlannedFlight> flights;   ///< of every UAV, by its index; those not known have an empty box
+  double spacing = 0.0;                 ///< of the points of a flight [s]
+  std::shared_ptr<const VoxelMap> map;  ///< null: nothing is mapped
+  double map_distance = 0.0;            ///< to keep from occupied voxels [m]
 };
 
 /// What a UAV is about to do, as far as a guide depends on it.
@@ -68,6 +71,8 @@ class GuidePlanner {
   /// Most expansions of all searches of a round, and of one attempt.
   static constexpr int kRoundBudget = 12000;
   static constexpr int kSearchBudget = 3000;
+  /// Of one attempt round what a map has: rooms are left by their doors.
+  static constexpr int kMapSearchBudget = 12000;
 
   GuidePlanner(const GuideSettings& settings, std::size_t uavs, std::size_t most_bodies);
 
@@ -95,6 +100,7 @@ class GuidePlanner {
     bool far = false;     ///< round all that is within reach, not only round the next
     bool comfort = true;  ///< with more distance than demanded
     double cell = 1.0;    ///< of the lattice, over the usual one
+    bool level = true;    ///< in a map: not far above or below start and goal
   };
 
   void sortBodies(const GuideScene& scene);
@@ -108,6 +114,10 @@ class GuidePlanner {
   bool isClearStill(const GuideRequest& request, const GuidePath& rest, const GuideAnswer& answer) const;
   /// Moves the points of a guide that are too near to something away from it. False if that does not make it clear.
   bool repair(const GuideRequest& request, GuideAnswer& answer);
+  /// The attempt after one that found nothing.
+  Attempt nextAttempt(const Attempt& attempt, SearchOutcome outcome, bool in_map) const;
+  /// Sets the lattice and the region of the query for a search that leads to about `towards` [m].
+  void shapeQuery(const GuideScene& scene, const Blockage& blockage, const Vector3& towards, const Attempt& attempt);
   void search(const GuideScene& scene, const GuideRequest& request, const Want& want, GuideAnswer& answer);
   /// Makes space_, traffic_ and query_ those of an attempt. Where it leads; none if no place is clear.
   std::optional<Goal> prepare(const GuideScene& scene, const GuideRequest& request, std::uint32_t uav,

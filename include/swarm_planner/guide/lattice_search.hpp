@@ -42,7 +42,7 @@ class LatticeSearch {
   int expansions() const { return expansions_; }
 
  private:
-  static constexpr std::size_t kMostNodes = 1U << 15U;
+  static constexpr std::size_t kMostNodes = 1U << 16U;
   static constexpr std::size_t kSlots = 2 * kMostNodes;
   static constexpr std::int32_t kNone = -1;
 

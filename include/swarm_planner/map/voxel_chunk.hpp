@@ -17,8 +17,17 @@ class VoxelChunk {
   /// Bit x is the voxel (x, y, z), each from 0 to 31.
   std::uint32_t row(int y, int z) const { return rows_[index(y, z)]; }
   bool isOccupied(int x, int y, int z) const { return ((row(y, z) >> x) & 1U) != 0; }
-  /// Whether any voxel of the block (x, y, z), each from 0 to 3, is occupied.
-  bool hasInBlock(int x, int y, int z) const { return ((blocks_ >> (x + kBlocks * (y + kBlocks * z))) & 1U) != 0; }
+  /// The occupied voxels of the block (x, y, z), each from 0 to 3, lie within these, each included.
+  struct Range {
+    std::array<std::uint8_t, 3> first{kSide, kSide, kSide};
+    std::array<std::uint8_t, 3> last{};
+
+    bool isEmpty() const { return first[0] > last[0]; }
+  };
+  const Range& block(int x, int y, int z) const { return blocks_[blockIndex(x, y, z)]; }
+  /// Voxels of a row that have a neighbour across one of their faces in the chunk, or may have one beyond it, that is
+  /// not occupied.
+  std::uint32_t surface(int y, int z) const;
   /// Whether any voxel from `first` to `last`, each included, is occupied.
   bool hasIn(const Eigen::Vector3i& first, const Eigen::Vector3i& last) const;
   int occupiedCount() const { return count_; }
@@ -31,9 +40,12 @@ class VoxelChunk {
 
  private:
   static std::size_t index(int y, int z) { return static_cast<std::size_t>(y + kSide * z); }
+  static std::size_t blockIndex(int x, int y, int z) {
+    return static_cast<std::size_t>(x + kBlocks * (y + kBlocks * z));
+  }
 
   std::array<std::uint32_t, kSide * kSide> rows_{};
-  std::uint64_t blocks_ = 0;  ///< those that have occupied voxels
+  std::array<Range, kBlocks * kBlocks * kBlocks> blocks_{};
   int count_ = 0;
 };
 

@@ -6,6 +6,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/problem/map_corridor.hpp"
 #include "swarm_planner/problem/moving_body.hpp"
 #include "swarm_planner/problem/target_preview.hpp"
 
@@ -40,6 +41,7 @@ struct UavProblem {
   StageTargets targets;
   bool is_guided = false;          ///< the path leads round the obstacles
   std::vector<MovingBody> bodies;  ///< whatever can be reached within the horizon
+  MapCorridor corridor;            ///< what a map leaves of the space about the plan
 };
 
 /// Points at which constraints hold while a plan flies each of its segments: the four control points, or, where they

@@ -13,6 +13,8 @@ namespace swarm_planner {
 
 /// Turns modes into what is flown: where a UAV holds, the way of its landing, and when it has landed. Throughout a
 /// cycle it takes no heap.
+///
+/// Every map is what is mapped in the cycle, or null.
 class FlightDirector {
  public:
   /// `parameters` must outlive this.
@@ -20,13 +22,13 @@ class FlightDirector {
 
   /// For one UAV with usable odometry, once record.start is known: the way on in its mode. Several UAVs may be directed
   /// at the same time.
-  void direct(double epoch, const UavMeasurement& measured, UavRecord& record) const;
+  void direct(double epoch, const UavMeasurement& measured, UavRecord& record, const VoxelMap* map = nullptr) const;
 
   /// Gives sites to UAVs that land and have none yet, from the lowest up, and takes those away that something has
   /// come upon. `judged`: of each UAV's odometry; kNone if it can be planned from. In a cycle only as many UAVs as
   /// there is time for.
   void assignSites(double epoch, const std::vector<TrackedObstacle>& obstacles, const std::vector<Reason>& judged,
-                   std::vector<UavRecord>& uavs);
+                   std::vector<UavRecord>& uavs, const VoxelMap* map = nullptr);
 
  private:
   /// Whether, and how far, the UAV may be below the workspace.
@@ -35,8 +37,10 @@ class FlightDirector {
   /// that follows.
   bool brake(double epoch, UavRecord& record) const;
   void hold(double epoch, UavRecord& record) const;
-  void land(double epoch, const UavMeasurement& measured, UavRecord& record) const;
-  void descend(double epoch, const UavMeasurement& measured, UavRecord& record) const;
+  void land(double epoch, const UavMeasurement& measured, UavRecord& record, const VoxelMap* map) const;
+  /// Whether a UAV that comes lower than `place` is too near to what is mapped.
+  bool isAtFloor(const VoxelMap* map, const Vector3& place) const;
+  void descend(double epoch, const UavMeasurement& measured, UavRecord& record, const VoxelMap* map) const;
   /// Where the UAV comes to rest: braking with room, or as quickly as it can.
   Vector3 placeOfRest(double epoch, const UavRecord& record, bool quickest) const;
   /// Another site is needed, from where the UAV comes to rest.

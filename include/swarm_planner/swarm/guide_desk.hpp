@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -26,7 +27,7 @@ class GuideDesk {
   /// In a cycle, after UAVs have planned for `epoch` [s]: asks for guides, unless a search is under way. The motions at
   /// rest of others count as something to go round once they have lasted for a while.
   void ask(double epoch, const std::vector<TrackedObstacle>& tracks, const std::vector<ForeignBody>& foreign,
-           std::vector<UavRecord>& uavs);
+           const std::shared_ptr<const VoxelMap>& map, std::vector<UavRecord>& uavs);
   /// Searches what was asked for last, on any thread, one at a time. False if nothing was.
   bool search();
 
@@ -41,6 +42,7 @@ class GuideDesk {
   Workspace workspace_;
   double time_zero_ = 0.0;  ///< of the scene [s]
   GuideScene scene_;
+  std::shared_ptr<const VoxelMap> last_map_;  ///< of the scene before; given back outside of the cycle
   std::vector<GuideRequest> requests_;
   std::vector<GuideAnswer> answers_;
   std::vector<double> quiet_since_;  ///< of each UAV [s]

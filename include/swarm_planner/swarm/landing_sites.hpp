@@ -7,6 +7,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 
 namespace swarm_planner {
@@ -14,14 +15,15 @@ namespace swarm_planner {
 /// Where UAVs land: each in a column of its own, straight down from where it came to rest or, where that is taken or
 /// blocked, the nearest free one on rings around it. A column is taken within pair_distance + pair_margin of another
 /// one's or of a UAV that stands, however high; it is blocked where an obstacle comes closer to it than the planner
-/// keeps within the time that the check looks ahead, or outside of the workspace. The same input gives the same sites.
+/// keeps within the time that the check looks ahead, by what is mapped above a floor at its foot, or outside of the
+/// workspace. The same input gives the same sites.
 /// Takes no heap unless more than `uav_count` columns are taken.
 class LandingSites {
  public:
   LandingSites(const Parameters& parameters, const std::optional<Workspace>& workspace, std::size_t uav_count);
 
-  /// A new cycle. `obstacles` have to outlive it; `epoch` [s] is when they are looked at first.
-  void begin(const std::vector<TrackedObstacle>& obstacles, double epoch);
+  /// A new cycle. `obstacles`, and what is mapped, have to outlive it; `epoch` [s] is when they are looked at first.
+  void begin(const std::vector<TrackedObstacle>& obstacles, double epoch, const VoxelMap* map = nullptr);
   /// The column through `place` is taken by `uav`.
   void take(std::size_t uav, const Vector3& place) { taken_.push_back({uav, place}); }
 
@@ -43,12 +45,15 @@ class LandingSites {
   /// Whether the column of `x`, `y` from `bottom` to `top` is free; `apart` [m] from those that are taken.
   bool isFree(std::size_t uav, const Vector3& bottom, double top, double apart) const;
   bool isInside(const Vector3& site) const;
+  /// Whether something mapped is too near to the column, but for what it ends above.
+  bool isMapped(const Vector3& bottom, double top) const;
   bool isBlockedBy(const TrackedObstacle& obstacle, const Vector3& bottom, double top) const;
 
   const Parameters& parameters_;
   Workspace bounds_;  ///< with the margin
   double spacing_;    ///< of new columns [m]
   const std::vector<TrackedObstacle>* obstacles_ = nullptr;
+  const VoxelMap* map_ = nullptr;
   double epoch_ = 0.0;
   std::vector<Column> taken_;
   mutable std::size_t effort_ = 0;

@@ -21,9 +21,10 @@ class RightOfWay {
   /// `parameters` must outlive this.
   RightOfWay(const Mission& mission, const Parameters& parameters);
 
-  /// Once all starts are known. `judged`: of each UAV's odometry; kNone if it can be planned from.
+  /// Once all starts are known. `judged`: of each UAV's odometry; kNone if it can be planned from. `map`: what is
+  /// mapped, or null.
   void direct(double epoch, const std::vector<TrackedObstacle>& obstacles, const std::vector<Reason>& judged,
-              const NeighbourLists& neighbours, std::vector<UavRecord>& uavs);
+              const NeighbourLists& neighbours, std::vector<UavRecord>& uavs, const VoxelMap* map = nullptr);
 
  private:
   /// Of a UAV that stands in the way.

@@ -20,12 +20,11 @@ class Surroundings {
   /// Up to `max_obstacles` obstacles before memory has to grow.
   Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles);
 
-  /// The cycle's epoch [s]; obstacles and motions are set after it.
-  void setEpoch(double epoch);
+  /// The cycle's epoch [s] and what is mapped, or null, which has to outlive the cycle; obstacles and motions are set
+  /// after it.
+  void setEpoch(double epoch, const VoxelMap* map = nullptr);
   /// Predicts the tracks, which have to outlive the cycle, to the epoch. `now`: of the cycle [s].
   void setObstacles(const std::vector<TrackedObstacle>& tracks, double now);
-  /// What is mapped, in this cycle and until it is set anew; null: nothing. It has to outlive that.
-  void setMap(const VoxelMap* map) { map_ = map; }
   /// One more obstacle, seen at `stamp` [s]; after the tracks. It has to outlive the cycle.
   void addObstacle(const Superellipsoid& shape, double stamp, const TrackInflation& inflation);
   /// Nothing is known of the UAV; others need not keep clear of it.

@@ -7,6 +7,7 @@
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/generated_solver.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
+#include "swarm_planner/swarm/mapped_space.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
@@ -60,9 +61,6 @@ class UavPlanner {
   /// The workspace for this cycle: down to the ground for landing; for a UAV that is outside no farther than the motion
   /// flown takes it anyway, so that it may come back.
   void setWorkspace(const UavRecord& record);
-  /// Of UAVs that are not seen, the motion flown now may already be nearer than their doubt allows: so much is demanded
-  /// of a plan as that motion has.
-  void limitDoubts(double epoch, const CommittedMotion& flown);
   /// Without a plan that passed: what flies, and why.
   Reason fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                   UavReport& report);
@@ -79,6 +77,7 @@ class UavPlanner {
   CheckLimits limits_;
   const Workspace workspace_;  ///< of the scenario, unbounded if it has none [m]
   UavProblem problem_;
+  MappedSpace mapped_;
   SqpSolver sqp_;
   CheckSurroundings check_;
   double lag_ = 0.0;                     ///< of the start behind the target, along the path [m]

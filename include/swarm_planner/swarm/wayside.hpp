@@ -8,6 +8,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/swarm/way.hpp"
 
@@ -35,8 +36,8 @@ class Wayside {
   Wayside(const Parameters& parameters, const std::optional<Workspace>& workspace, std::size_t uav_count,
           std::size_t max_obstacles);
 
-  /// Obstacles at `epoch` [s]; they have to outlive the cycle.
-  void begin(const std::vector<TrackedObstacle>& obstacles, double epoch);
+  /// Obstacles at `epoch` [s], and what is mapped, or null; they have to outlive the cycle.
+  void begin(const std::vector<TrackedObstacle>& obstacles, double epoch, const VoxelMap* map = nullptr);
   /// Other UAVs to keep clear of: their places [m]. One that `may_be_asked` to move is in the way only where there is
   /// another place.
   void forgetOthers() { others_.clear(); }
@@ -64,6 +65,7 @@ class Wayside {
   PairSpacing spacing_;
   Workspace bounds_;  ///< with the margin [m]
   const std::vector<TrackedObstacle>* obstacles_ = nullptr;
+  const VoxelMap* map_ = nullptr;
   double epoch_ = 0.0;
   std::vector<const TrackedObstacle*> near_;  ///< within reach of the search
   std::vector<Other> others_;

@@ -1,0 +1,57 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "swarm_planner/problem/free_polyhedron.hpp"
+#include "swarm_planner/problem/moving_body.hpp"
+
+namespace swarm_planner {
+
+/// A half-space n . p >= offset that keeps a segment the distance clear of what lies behind it.
+struct CorridorPlane {
+  HalfSpace half_space;        ///< of positions in the planning frame
+  std::uint32_t identity = 0;  ///< the same from cycle to cycle, as long as the same voxel is behind it; 30 bits
+};
+
+/// Where one segment may go. Outside of the window nothing is known.
+struct CorridorSegment {
+  std::array<CorridorPlane, FreePolyhedron::kMostPlanes> planes;
+  std::size_t count = 0;
+  Box window;  ///< [m]
+};
+
+/// Convex parts of a map's free space, one for each segment of a plan.
+struct MapCorridor {
+  bool active = false;  ///< false: nothing is mapped
+  std::array<CorridorSegment, kHorizon> segments;
+};
+
+struct UavProblem;
+
+/// What a corridor is made for.
+struct CorridorRequest {
+  const VoxelMap* map = nullptr;
+  double distance = 0.0;  ///< to keep from occupied voxels [m]
+  double margin = 0.0;    ///< of it, that is waived at first where the start has less [m]
+  double band = 0.0;      ///< how far beyond the plan's control points is looked [m]
+};
+
+/// Makes the corridor of problem.corridor about `plan`, which the solver is to improve. A segment that leads through
+/// occupied space gets the free space about where the problem's target is then; where that is not free either, that of
+/// the segment before, so that the plan ends in front of what it cannot pass.
+class CorridorBuilder {
+ public:
+  void build(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem);
+
+ private:
+  void assign(const CorridorRequest& request, const Vector3& start, int k, CorridorSegment& segment) const;
+
+  PolyhedronSearch search_;
+  FreePolyhedron polyhedron_;  ///< of the segment in work
+  FreePolyhedron other_;
+};
+
+}  // namespace swarm_planner

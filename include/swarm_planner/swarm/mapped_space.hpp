@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include "swarm_planner/config/parameters.hpp"
+#include "swarm_planner/problem/map_corridor.hpp"
+#include "swarm_planner/problem/uav_problem.hpp"
+
+namespace swarm_planner {
+
+/// What one UAV's planning makes of a map. Every map may be null: nothing is mapped. Takes no heap once made.
+class MappedSpace {
+ public:
+  /// `parameters` must outlive this.
+  explicit MappedSpace(const Parameters& parameters) : parameters_(parameters) {}
+
+  /// Gives the problem the corridor about `plan`.
+  void findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem);
+  /// From the plan's knots to the nearest occupied voxel, less uav_radius [m]; infinite where none is within a metre.
+  double clearance(const VoxelMap* map, const Trajectory& plan) const;
+
+ private:
+  const Parameters& parameters_;
+  CorridorBuilder builder_;
+};
+
+}  // namespace swarm_planner

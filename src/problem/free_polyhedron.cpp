@@ -1,0 +1,222 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/problem/free_polyhedron.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "swarm_planner/problem/moving_body.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kRounding = 1e-9;  // [m]
+constexpr double kMeets = 1e-6;     // nearer than this a segment meets a voxel [m]
+constexpr int kHalvings = 6;        // of a band that has too many voxels
+constexpr double kAsGood = 0.85;    // of the clearance, that a plane along the axes may have less
+
+Vector3 gaps(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0); }
+
+Vector3 middleOf(const Box& box) { return 0.5 * (box.min + box.max); }
+Vector3 halfOf(const Box& box) { return 0.5 * (box.max - box.min); }
+
+/// The point of the chord that is nearest to `p`.
+Vector3 nearestOnChord(const SegmentPoints& segment, const Vector3& p) {
+  const Vector3 chord = segment[3] - segment[0];
+  const double squared = chord.squaredNorm();
+  if (!(squared > 0.0)) return segment[0];
+  return segment[0] + std::clamp((p - segment[0]).dot(chord) / squared, 0.0, 1.0) * chord;
+}
+
+double leastClearance(const FreePlane& plane, const SegmentPoints& segment) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vector3& point : segment) least = std::min(least, plane.n.dot(point) - plane.offset);
+  return least;
+}
+
+std::uint32_t identityOf(const VoxelIndex& index) {
+  return (static_cast<std::uint32_t>(index.x()) * 73856093U ^ static_cast<std::uint32_t>(index.y()) * 19349663U ^
+          static_cast<std::uint32_t>(index.z()) * 83492791U) &
+         0x3fffffffU;
+}
+
+}  // namespace
+
+PolyhedronSearch::PolyhedronSearch() {
+  blocks_.reserve(kMostBlocks);
+  voxels_.reserve(kMostVoxels);
+}
+
+void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, double band,
+                            FreePolyhedron& polyhedron) {
+  polyhedron_ = &polyhedron;
+  segment_ = segment;
+  resolution_ = map.resolution();
+  hull_ = Box();
+  for (const Vector3& point : segment) hull_.include(point);
+  for (int halving = 0; halving < kHalvings; ++halving, band *= 0.5) {
+    polyhedron.window = {hull_.min - Vector3::Constant(band), hull_.max + Vector3::Constant(band)};
+    polyhedron.count = 0;
+    polyhedron.clearance = band;
+    addBounds(map);
+    if (gatherBlocks(map) && separate()) return;
+  }
+  polyhedron.clearance = 0.0;
+}
+
+void PolyhedronSearch::addBounds(const VoxelMap& map) {
+  if (!map.outsideIsOccupied()) return;
+  const Box& bounds = map.bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {1.0, -1.0}) {
+      FreePlane plane;
+      plane.n = side * Vector3::Unit(axis);
+      plane.offset = side > 0.0 ? bounds.min[axis] : -bounds.max[axis];
+      plane.voxel = static_cast<std::uint32_t>(2 * axis) + (side > 0.0 ? 1U : 0U);
+      const Box& window = polyhedron_->window;
+      if ((side > 0.0 ? window.min[axis] : -window.max[axis]) >= plane.offset) continue;
+      polyhedron_->planes[polyhedron_->count++] = plane;
+      polyhedron_->clearance = std::min(polyhedron_->clearance, std::max(leastClearance(plane, segment_), 0.0));
+    }
+  }
+}
+
+bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
+  blocks_.clear();
+  const VoxelIndex first = map.voxelAt(polyhedron_->window.min);
+  const VoxelIndex last = map.voxelAt(polyhedron_->window.max);
+  for (int z = first.z() >> 5; z <= last.z() >> 5; ++z) {
+    for (int y = first.y() >> 5; y <= last.y() >> 5; ++y) {
+      for (int x = first.x() >> 5; x <= last.x() >> 5; ++x) {
+        const VoxelChunk* chunk = map.chunk({x, y, z});
+        if (chunk != nullptr) gatherBlocks(*chunk, VoxelChunk::kSide * VoxelIndex(x, y, z));
+        if (blocks_.size() == kMostBlocks) return false;
+      }
+    }
+  }
+  std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
+    if (a.gap != b.gap) return a.gap < b.gap;
+    if (a.box.min.x() != b.box.min.x()) return a.box.min.x() < b.box.min.x();
+    return a.box.min.y() != b.box.min.y() ? a.box.min.y() < b.box.min.y() : a.box.min.z() < b.box.min.z();
+  });
+  return true;
+}
+
+void PolyhedronSearch::gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner) {
+  for (int i = 0; i < VoxelChunk::kBlocks * VoxelChunk::kBlocks * VoxelChunk::kBlocks; ++i) {
+    const VoxelChunk::Range& range = chunk.block(i % 4, i / 4 % 4, i / 16);
+    if (range.isEmpty()) continue;
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      box.min[axis] = resolution_ * (corner[axis] + range.first[a]);
+      box.max[axis] = resolution_ * (corner[axis] + range.last[a] + 1);
+    }
+    if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
+    if (blocks_.size() == kMostBlocks) return;
+    blocks_.push_back({gaps(box, hull_).norm(), box, &chunk, &range, corner});
+  }
+}
+
+bool PolyhedronSearch::expand(const Block& block) {
+  if (isBehindAny(middleOf(block.box), halfOf(block.box))) return true;
+  const Vector3 half = Vector3::Constant(0.5 * resolution_);
+  const VoxelChunk::Range& range = *block.range;
+  for (int z = range.first[2]; z <= range.last[2]; ++z) {
+    for (int y = range.first[1]; y <= range.last[1]; ++y) {
+      const std::uint32_t row = block.chunk->surface(y, z);
+      for (int x = range.first[0]; x <= range.last[0]; ++x) {
+        if (((row >> x) & 1U) == 0) continue;
+        Voxel voxel;
+        voxel.index = block.corner + VoxelIndex(x, y, z);
+        voxel.middle = resolution_ * voxel.index.cast<double>() + half;
+        if (!polyhedron_->window.near({voxel.middle, voxel.middle}, half.x())) continue;
+        if (isBehindAny(voxel.middle, half)) continue;
+        if (voxels_.size() == kMostVoxels) return false;
+        voxel.distance = (voxel.middle - nearestOnChord(segment_, voxel.middle)).norm();
+        voxels_.push_back(voxel);
+      }
+    }
+  }
+  return true;
+}
+
+bool PolyhedronSearch::separate() {
+  voxels_.clear();
+  const Vector3 half = Vector3::Constant(0.5 * resolution_);
+  std::size_t next = 0;
+  for (;;) {
+    auto nearest = std::min_element(voxels_.begin(), voxels_.end(),
+                                    [](const Voxel& a, const Voxel& b) { return a.distance < b.distance; });
+    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].gap <= nearest->distance)) {
+      if (!expand(blocks_[next++])) return false;
+      continue;
+    }
+    if (voxels_.empty()) return true;
+    if (polyhedron_->count == FreePolyhedron::kMostPlanes) {
+      shrinkWindow(next);
+      return true;
+    }
+    if (!addPlane(*nearest)) return true;
+    const FreePlane& plane = polyhedron_->planes[polyhedron_->count - 1];
+    voxels_.erase(std::remove_if(voxels_.begin(), voxels_.end(),
+                                 [&](const Voxel& voxel) { return isBehind(plane, voxel.middle, half); }),
+                  voxels_.end());
+  }
+}
+
+bool PolyhedronSearch::addPlane(const Voxel& voxel) {
+  const Vector3 half = Vector3::Constant(0.5 * resolution_);
+  const Vector3 seen_from = nearestOnChord(segment_, voxel.middle);
+  const Vector3 corner = seen_from.cwiseMax(voxel.middle - half).cwiseMin(voxel.middle + half);
+  SegmentPoints relative;
+  for (std::size_t i = 0; i < relative.size(); ++i) relative[i] = segment_[i] - corner;
+  const Vector3 way = nearestPoint(relative);
+  const double length = way.norm();
+  if (length < kMeets) {
+    polyhedron_->clearance = 0.0;
+    return false;
+  }
+  const auto planeTowards = [&](const Vector3& n) {
+    return FreePlane{n, n.dot(voxel.middle) + half.dot(n.cwiseAbs()), identityOf(voxel.index)};
+  };
+  FreePlane plane = planeTowards(way / length);
+  double clearance = leastClearance(plane, segment_);
+  // Walls mostly lie along the axes: a plane like that puts away more of a rough one.
+  Eigen::Index axis = 0;
+  plane.n.cwiseAbs().maxCoeff(&axis);
+  const FreePlane along = planeTowards(std::copysign(1.0, plane.n[axis]) * Vector3::Unit(axis));
+  const double its_clearance = leastClearance(along, segment_);
+  if (its_clearance >= kAsGood * clearance) {
+    plane = along;
+    clearance = its_clearance;
+  }
+  polyhedron_->planes[polyhedron_->count++] = plane;
+  polyhedron_->clearance = std::min(polyhedron_->clearance, std::max(clearance, 0.0));
+  return true;
+}
+
+bool PolyhedronSearch::isBehind(const FreePlane& plane, const Vector3& middle, const Vector3& half) const {
+  return plane.n.dot(middle) + plane.n.cwiseAbs().dot(half) <= plane.offset + kRounding;
+}
+
+bool PolyhedronSearch::isBehindAny(const Vector3& middle, const Vector3& half) const {
+  const auto end = polyhedron_->planes.begin() + static_cast<std::ptrdiff_t>(polyhedron_->count);
+  return std::any_of(polyhedron_->planes.begin(), end,
+                     [&](const FreePlane& plane) { return isBehind(plane, middle, half); });
+}
+
+void PolyhedronSearch::shrinkWindow(std::size_t next_block) {
+  double room = std::numeric_limits<double>::infinity();
+  for (const Voxel& voxel : voxels_) {
+    const Vector3 half = Vector3::Constant(0.5 * resolution_);
+    room = std::min(room, gaps({voxel.middle - half, voxel.middle + half}, hull_).maxCoeff());
+  }
+  for (std::size_t i = next_block; i < blocks_.size(); ++i) {
+    if (isBehindAny(middleOf(blocks_[i].box), halfOf(blocks_[i].box))) continue;
+    room = std::min(room, gaps(blocks_[i].box, hull_).maxCoeff());
+  }
+  polyhedron_->window = {hull_.min - Vector3::Constant(room), hull_.max + Vector3::Constant(room)};
+}
+
+}  // namespace swarm_planner

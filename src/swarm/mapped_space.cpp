@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include "swarm_planner/swarm/mapped_space.hpp"
+
+#include <limits>
+
+namespace swarm_planner {
+namespace {
+
+/// How far about a plan its corridor reaches, in the way flown per stage at full speed.
+constexpr double kBand = 2.0;
+constexpr double kLooked = 1.0;  // beyond uav_radius, for a clearance that is reported [m]
+
+}  // namespace
+
+void MappedSpace::findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem) {
+  const LimitParameters& limits = parameters_.limits;
+  CorridorRequest request;
+  request.map = map;
+  request.distance = limits.uav_radius + limits.tracking_margin;
+  request.margin = limits.tracking_margin;
+  request.band = kBand * limits.max_speed * problem.dt + request.distance;
+  builder_.build(request, plan, problem);
+}
+
+double MappedSpace::clearance(const VoxelMap* map, const Trajectory& plan) const {
+  if (map == nullptr) return std::numeric_limits<double>::infinity();
+  const double radius = parameters_.limits.uav_radius;
+  double least = radius + kLooked;
+  for (const KinematicState& knot : plan.knots) least = map->distance(knot.p, least);
+  return least < radius + kLooked ? least - radius : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace swarm_planner

@@ -1,0 +1,67 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// Closed loop through mapped places: walls, doors, and walls that appear.
+#include <gtest/gtest.h>
+
+#include "mapped_places.hpp"
+
+namespace swarm_planner {
+namespace {
+
+TEST(MapFlights, LeadThroughADoorBesideTheReference) {
+  for (const bool mapped : {true, false}) {
+    MappedFlight flight(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(4, -1.5, 1.2)}), hallWithDoor(0.9));
+    if (mapped) {
+      EXPECT_EQ(flight.fly(100), 1U);
+      EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+    } else {
+      PerfectFlight blind(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(4, -1.5, 1.2)}));
+      blind.cycles(30);
+      EXPECT_GT(blind.vehicle(0).p.x(), 3.0) << "without the map it flies straight through the wall";
+    }
+  }
+}
+
+TEST(MapFlights, SixQueueAtADoor) {
+  std::vector<Vector3> starts;
+  std::vector<Vector3> ends;
+  for (int i = 0; i < 6; ++i) {
+    const double side = i < 3 ? -1.0 : 1.0;
+    starts.emplace_back(4.0 * side, -2.0 + 2.0 * (i % 3), 1.2);
+    ends.emplace_back(-4.0 * side, -2.0 + 2.0 * (i % 3), 1.2);
+  }
+  MappedFlight flight(makeIndoorMission(starts, ends), hallWithDoor(0.9));
+  EXPECT_EQ(flight.fly(250), 6U);
+  EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+  EXPECT_GT(flight.flight().leastPairGauge(), 1.0);
+}
+
+TEST(MapFlights, StayInARoomWithoutADoorThatIsWideEnough) {
+  MappedFlight flight(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(4, -1.5, 1.2)}), hallWithDoor(0.3));
+  EXPECT_EQ(flight.fly(60), 0U);
+  EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+  EXPECT_LT(flight.flight().vehicle(0).p.x(), 0.0);
+}
+
+TEST(MapFlights, StopBeforeAWallThatAppearsAndGoRoundIt) {
+  // Of the door in the wall nothing is known at first, and of the wall neither.
+  MappedFlight flight(makeIndoorMission({Vector3(-5, -1.5, 1.2)}, {Vector3(5, -1.5, 1.2)}), PlaceBuilder(0.1).build());
+  while (flight.flight().vehicle(0).p.x() < -1.8) flight.cycle();
+  EXPECT_GT(flight.flight().vehicle(0).v.x(), 1.0);
+  flight.setMap(hallWithDoor(0.9));
+  EXPECT_EQ(flight.fly(80), 1U);
+  EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+}
+
+TEST(MapFlights, LandAboveAMappedFloor) {
+  MappedFlight flight(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(-2, -1.5, 1.2)}), hallWithDoor(0.9));
+  flight.fly(30);
+  flight.flight().planner().command(0, FlightCommand::kLand);
+  for (int i = 0; i < 40; ++i) flight.cycle();
+  EXPECT_EQ(flight.flight().planner().mode(0), FlightMode::kLanded);
+  EXPECT_LT(flight.flight().vehicle(0).p.z(), 0.5);
+  EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+}
+
+}  // namespace
+}  // namespace swarm_planner
