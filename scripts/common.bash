@@ -19,9 +19,11 @@ build_packages=(
   libgeometry-msgs-dev
   libgtest-dev
   libnav-msgs-dev
+  liboctomap-dev
   libroscpp-dev
   libros-rosgraph-msgs-dev
   librostest-dev
+  libsensor-msgs-dev
   libstd-msgs-dev
   libstd-srvs-dev
   libtf2-dev
@@ -37,6 +39,7 @@ build_packages=(
   ros-geometry-msgs
   ros-message-generation
   ros-message-runtime
+  ros-sensor-msgs
   ros-std-msgs
   ros-std-srvs
 )
@@ -48,6 +51,7 @@ test_packages=(
   python3-nav-msgs
   python3-rosgraph-msgs
   python3-rospy
+  python3-sensor-msgs
   python3-std-srvs
   python3-tf2-msgs
   python3-trajectory-msgs

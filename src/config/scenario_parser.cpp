@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#include <filesystem>
 #include <map>
 
 #include "fault_reader.hpp"
@@ -108,11 +109,15 @@ void readWorkspace(const YamlNode& node, std::optional<Workspace>& out) {
   }
 }
 
-void readMap(const YamlNode& node) {
-  const YamlMap map(node, {"octomap"});
-  std::string file;
-  map.read("octomap", file);
-  if (map.isMap()) node.fault("maps are not supported yet, expected obstacles only");
+void readMap(const YamlNode& node, Scenario& scenario) {
+  const YamlMap map(node, {"octomap", "unknown_space"});
+  if (!map.isMap()) return;
+  if (!map.has("octomap") && !map.has("unknown_space")) node.fault("found neither octomap nor unknown_space");
+  if (map.has("octomap")) map.read("octomap", scenario.map_file);
+  std::string unknown = "free";
+  if (!map.has("unknown_space") || !map.read("unknown_space", unknown)) return;
+  scenario.unknown_is_occupied = unknown == "occupied";
+  if (unknown != "free" && unknown != "occupied") map.find("unknown_space")->unexpected("free or occupied");
 }
 
 void readOverrides(const YamlNode& node, std::map<std::string, double>& overrides) {
@@ -159,7 +164,7 @@ Scenario readScenario(const YamlNode& node) {
   if (const YamlNode* end = root.require("end", "one of target_x, duration, all_at_goal")) readEnd(*end, scenario.end);
   readUavs(root, scenario.uavs);
   if (const YamlNode* obstacles = root.find("obstacles")) readObstacles(*obstacles, scenario.obstacles);
-  if (const YamlNode* map = root.find("map")) readMap(*map);
+  if (const YamlNode* map = root.find("map")) readMap(*map, scenario);
   if (const YamlNode* workspace = root.find("workspace")) readWorkspace(*workspace, scenario.workspace);
   if (const YamlNode* overrides = root.find("overrides")) readOverrides(*overrides, scenario.overrides);
   if (const YamlNode* faults = root.find("faults")) readFaultInjections(*faults, scenario.uavs, scenario.faults);
@@ -179,7 +184,11 @@ Scenario parseScenarioText(const std::string& yaml, const std::string& source, F
 Scenario parseScenarioFile(const std::string& path, Faults& faults) {
   const YamlSource yaml_source{path, faults};
   const std::optional<YamlNode> root = YamlNode::load(yaml_source);
-  const Scenario scenario = root ? readScenario(*root) : Scenario();
+  Scenario scenario = root ? readScenario(*root) : Scenario();
+  // An absolute path stays itself.
+  if (!scenario.map_file.empty()) {
+    scenario.map_file = (std::filesystem::path(path).parent_path() / scenario.map_file).string();
+  }
   addAbsurdNumbers(scenario, path, faults);
   return scenario;
 }

@@ -69,6 +69,14 @@ std::string faultText(const FaultInjection& fault) {
   return text + "}\n";
 }
 
+std::string mapText(const Scenario& scenario) {
+  if (scenario.map_file.empty() && !scenario.unknown_is_occupied) return "";
+  std::string text;
+  if (!scenario.map_file.empty()) text = "octomap: " + scalarText(scenario.map_file);
+  if (scenario.unknown_is_occupied) text += std::string(text.empty() ? "" : ", ") + "unknown_space: occupied";
+  return "map: {" + text + "}\n";
+}
+
 std::string overridesText(const std::map<std::string, double>& overrides) {
   std::string text;
   for (const auto& [name, value] : overrides) text += "  " + name + ": " + formatNumber(value) + "\n";
@@ -83,6 +91,7 @@ std::string toYaml(const Scenario& scenario) {
   for (const ScenarioUav& uav : scenario.uavs) text += uavText(uav);
   text += scenario.obstacles.empty() ? "obstacles: []\n" : "obstacles:\n";
   for (const ScenarioObstacle& obstacle : scenario.obstacles) text += obstacleText(obstacle);
+  text += mapText(scenario);
   if (scenario.workspace) {
     text += "workspace: {min: " + vectorText(scenario.workspace->min) +
             ", max: " + vectorText(scenario.workspace->max) + "}\n";

@@ -51,6 +51,7 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   obstacles_ = obstacles_at_start_;
   samples_.resize(vehicles_.size());
   snapshot_.uavs.resize(vehicles_.size());
+  snapshot_.map = mission.map;
   result_.scenario = scenario.name;
   result_.seed = seed;
   result_.uavs = vehicles_.size();

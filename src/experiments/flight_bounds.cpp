@@ -32,6 +32,10 @@ Workspace flightBox(const Mission& mission, const std::vector<Superellipsoid>& o
     for (const Vector3& corner : uav.reference) include(corner, Vector3::Zero());
   }
   for (const Superellipsoid& obstacle : obstacles) include(obstacle.center(), obstacle.halfExtents());
+  if (mission.map != nullptr && mission.map->occupiedCount() > 0) {
+    include(mission.map->bounds().min, Vector3::Zero());
+    include(mission.map->bounds().max, Vector3::Zero());
+  }
   const Vector3 room = Vector3::Constant(4.0 * mission.parameters.limits.uav_radius);
   return {box.min - room, box.max + room};
 }
@@ -87,7 +91,7 @@ std::vector<FlightBound> flightBounds(const Mission& mission, bool with_paths) {
   std::vector<Superellipsoid> standing = standingObstacles(mission.scenario);
   const double radius = mission.parameters.limits.uav_radius;
   const Workspace box = flightBox(mission, standing);
-  const FreeSpace space(std::move(standing), radius, box);
+  const FreeSpace space(std::move(standing), radius, box, mission.map);
   ShortestPath search(space, cellWidth(box, radius));
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     bounds[i].shortest_path = shortestPath(mission.scenario.uavs[i], space, search);

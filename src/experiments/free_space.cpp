@@ -77,14 +77,16 @@ void cutCorners(const FreeSpace& space, std::vector<Vector3>& path) {
 
 }  // namespace
 
-FreeSpace::FreeSpace(std::vector<Superellipsoid> obstacles, double radius, const Workspace& box)
-    : obstacles_(std::move(obstacles)), radius_(radius), box_(box) {}
+FreeSpace::FreeSpace(std::vector<Superellipsoid> obstacles, double radius, const Workspace& box,
+                     std::shared_ptr<const VoxelMap> map)
+    : obstacles_(std::move(obstacles)), map_(std::move(map)), radius_(radius), box_(box) {}
 
 double FreeSpace::clearance(const Vector3& p) const {
   double least = kMostClearance + radius_;
   for (const Superellipsoid& obstacle : obstacles_) {
     if (obstacle.distanceLowerBound(p) < least) least = std::min(least, obstacle.signedDistance(p));
   }
+  if (map_ != nullptr) least = map_->distance(p, least);
   return least - radius_;
 }
 

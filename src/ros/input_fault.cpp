@@ -34,6 +34,8 @@ const char* faultText(InputFault fault) {
       return "too long";
     case InputFault::kMalformed:
       return "malformed";
+    case InputFault::kMap:
+      return "no usable map";
   }
   return "";
 }

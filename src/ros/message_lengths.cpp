@@ -16,6 +16,7 @@ constexpr std::size_t kTrack = 4 + 4 * kVector + kQuaternion + 16;
 constexpr std::size_t kEmptyHeader = 4 + kStamp + 4;
 constexpr std::size_t kEmptyStampedTransform = kEmptyHeader + 4 + kTransform;
 constexpr std::size_t kEmptyTrajectoryPoint = 3 * 4 + 8;
+constexpr std::size_t kEmptyPointField = 4 + 4 + 1 + 4;
 constexpr std::size_t kEmptyUavStatus = 3 * 4 + 4 + 8 + 8 + 5 * 8 + kVector;
 
 /// Walks over the bytes of a message; false as soon as they do not suffice.
@@ -94,6 +95,23 @@ bool lengthsFit<trajectory_msgs::MultiDOFJointTrajectory>(const std::uint8_t* by
     if (!trajectoryPoint(cursor)) return false;
   }
   return true;
+}
+
+template <>
+bool lengthsFit<OctomapMessage>(const std::uint8_t* bytes, std::size_t size) {
+  Cursor cursor(bytes, size);
+  return cursor.header() && cursor.skip(1) && cursor.string() && cursor.skip(sizeof(double)) && cursor.array(1);
+}
+
+template <>
+bool lengthsFit<sensor_msgs::PointCloud2>(const std::uint8_t* bytes, std::size_t size) {
+  Cursor cursor(bytes, size);
+  std::uint32_t fields = 0;
+  if (!cursor.header() || !cursor.skip(4 + 4) || !cursor.count(kEmptyPointField, fields)) return false;
+  for (std::uint32_t i = 0; i < fields; ++i) {
+    if (!cursor.string() || !cursor.skip(kEmptyPointField - 4)) return false;
+  }
+  return cursor.skip(1 + 4 + 4) && cursor.array(1);
 }
 
 template <>

@@ -38,6 +38,7 @@ PlannerDiagnostics::PlannerDiagnostics(const std::vector<std::string>& uav_names
   updater_.add("planning cycle", this, &PlannerDiagnostics::describeCycle);
   updater_.add("obstacle tracks", this, &PlannerDiagnostics::describeTracks);
   updater_.add("transforms", this, &PlannerDiagnostics::describeTransforms);
+  updater_.add("map", this, &PlannerDiagnostics::describeMap);
   for (std::size_t uav = 0; uav < uav_names.size(); ++uav) {
     updater_.add(uav_names[uav], [this, uav](Status& status) { describeUav(uav, status); });
   }
@@ -49,16 +50,19 @@ void PlannerDiagnostics::addCycle(const PlannerStatus& status) {
 }
 
 void PlannerDiagnostics::publish(const std::vector<UavInput>& uavs, const TrackInput& tracks,
-                                 const TransformInputReport& transforms, double now, const std::string& clock) {
+                                 const TransformInputReport& transforms, const MapInputReport& map, double now,
+                                 const std::string& clock) {
   uavs_ = uavs;
   tracks_ = tracks;
   transforms_ = transforms;
+  map_ = map;
   now_ = now;
   clock_ = clock;
   updater_.force_update();
   last_uavs_ = uavs_;
   last_tracks_ = tracks_;
   last_transforms_ = transforms_;
+  last_map_ = map_;
   last_time_ = now;
   tally_.clear();
 }
@@ -125,6 +129,21 @@ void PlannerDiagnostics::describeTransforms(Status& status) {
                  dropped ? transforms_.last_fault : "no transform dropped");
   status.addf("rate [Hz]", "%.1f", rate(transforms_.accepted, last_transforms_.accepted));
   addDropped("transforms or messages dropped", transforms_.dropped, status);
+}
+
+void PlannerDiagnostics::describeMap(Status& status) {
+  if (map_.dropped.total() > last_map_.dropped.total()) {
+    status.summary(DiagnosticStatus::WARN, map_.last_fault);
+  } else if (map_.source.empty()) {
+    status.summary(DiagnosticStatus::OK, "no map");
+  } else {
+    status.summaryf(DiagnosticStatus::OK, "%zu occupied voxels of %g m", map_.voxels, map_.resolution);
+  }
+  status.add("source", map_.source.empty() ? "none" : shortened(map_.source, 200));
+  status.addf("rate [Hz]", "%.1f", rate(map_.accepted, last_map_.accepted));
+  status.addf("delay from message to use [ms]", "%.1f", 1e3 * map_.delay);
+  status.addf("memory [MB]", "%.1f", map_.memory);
+  addDropped("maps or clouds dropped", map_.dropped, status);
 }
 
 void PlannerDiagnostics::describeUav(std::size_t uav, Status& status) {

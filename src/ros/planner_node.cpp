@@ -67,6 +67,9 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       cycle_period_(mission.parameters.time.cycle_period),
       setpoint_repeats_(mission.parameters.input.setpoint_repeats),
       inputs_(names_, frame_, options, inputLimits(mission)),
+      map_markers_(mission, frame_, options.map),
+      maps_(mission, options.map, inputs_.frames(), inputs_.store(),
+            [this](const VoxelMap& map) { map_markers_.show(map); }),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
       markers_(mission, frame_, options, inputs_),
@@ -107,6 +110,7 @@ void PlannerNode::runCycle(const ros::TimerEvent& event) {
   if (ros::Time::isSimTime()) budget_.noteCycle(now, ros::SteadyTime::now().toSec());
   outputs_.sendWaitingSetpoints();
   inputs_.store().fill(now, snapshot_);
+  snapshot_.map = maps_.map();
   snapshot_.now = std::min(snapshot_.now, epoch);
   planner_.plan(snapshot_, epoch, budget_.forPlansDueIn(epoch - toSeconds(ros::Time::now())));
   guides_.wake();

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "swarm_planner/map/octree_data.hpp"
 #include "swarm_planner/ros/node_constants.hpp"
 
 namespace swarm_planner {
@@ -45,6 +46,11 @@ const std::vector<NodeParameter>& plannerNodeTable() {
       {"uav_marker_size", "drawn width of a UAV [m], 0: by the scene's size", 0.0, false, 0.0, 1000.0},
       {"trail_duration", "flown path to draw [s]", 60.0, false, 0.0, 3600.0},
       {"diagnostic_period", "time between diagnostics [s]", 1.0, false, 0.1, 60.0},
+      {"map_resolution", "of a map made from clouds alone [m]", 0.1, false, kLeastMapResolution, kMostMapResolution},
+      {"map_cloud_range", "farther from the sensor points are not used [m]", 5.0, false, 0.1, 100.0},
+      {"map_cloud_period", "time of which clouds become a new map together [s]", 0.2, false, 0.01, 60.0},
+      {"map_body_radius", "around each UAV, within which points are its own [m]", 0.5, false, 0.0, 100.0},
+      {"map_marker_voxels", "voxels drawn at most, 0: none", 50000.0, false, 0.0, 1e6},
       {"flight_record", "path of the flight's record: auto, a path, or empty for none", std::string("auto")},
   };
   return table;
@@ -68,6 +74,11 @@ PlannerNodeOptions takePlannerNodeOptions(ParameterMap& given, Faults& faults) {
   options.uav_marker_size = number("uav_marker_size");
   options.trail_duration = number("trail_duration");
   options.diagnostic_period = number("diagnostic_period");
+  options.map.resolution = number("map_resolution");
+  options.map.cloud_range = number("map_cloud_range");
+  options.map.cloud_period = number("map_cloud_period");
+  options.map.body_radius = number("map_body_radius");
+  options.map.marker_voxels = static_cast<int>(number("map_marker_voxels"));
   options.flight_record = text("flight_record");
   requirePlaceholder("odometry_topic", options.odometry_topic, faults);
   requirePlaceholder("trajectory_topic", options.trajectory_topic, faults);

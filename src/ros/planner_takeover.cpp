@@ -78,7 +78,7 @@ void PlannerNode::reportHealth() {
   const double wall = ros::SteadyTime::now().toSec();
   clock_.note(now, wall);
   const TrackInput tracks = inputs_.store().tracks();
-  diagnostics_.publish(inputs_.store().uavs(), tracks, inputs_.transforms(), now, clock_.fault());
+  diagnostics_.publish(inputs_.store().uavs(), tracks, inputs_.transforms(), maps_.report(), now, clock_.fault());
   // The throttled macros of roscpp count ROS time, which may be what stands still.
   if (wall < next_health_warning_) return;
   std::string text = clock_.fault();

@@ -35,7 +35,8 @@ void FlightWatch::observe(double t, const std::vector<Vector3>& positions, const
       uav.path_length_at_arrival = uav.path_length;
       uav.position_at_arrival = uav.position;
     }
-    if (isInside(progress.target(i).p, obstacles)) uav.target_inside_at = t;
+    const Vector3& target = progress.target(i).p;
+    if (isInside(target, obstacles) || (map_ != nullptr && map_->isOccupied(target))) uav.target_inside_at = t;
   }
   time_ = t;
   begun_ = true;

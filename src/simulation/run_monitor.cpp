@@ -13,6 +13,12 @@ bool isOutside(const Vector3& p, const Workspace& box) {
   return (p.array() < box.min.array()).any() || (p.array() > box.max.array()).any();
 }
 
+/// Of those that there are.
+std::optional<double> lesser(const std::optional<double>& a, const std::optional<double>& b) {
+  if (!a || !b) return a ? a : b;
+  return std::min(*a, *b);
+}
+
 }  // namespace
 
 RunMonitor::RunMonitor(const Mission& mission)
@@ -20,8 +26,9 @@ RunMonitor::RunMonitor(const Mission& mission)
       outside_(mission.scenario.uavs.size(), false),
       pairs_(mission.parameters.limits.pair_distance, mission.parameters.limits.pair_distance_vertical),
       obstacles_(mission.parameters.limits.uav_radius),
+      map_(mission.map, mission.parameters.limits.uav_radius),
       progress_(mission),
-      flights_(mission.scenario.uavs.size()),
+      flights_(mission.scenario.uavs.size(), mission.map),
       cost_(mission.parameters.cost) {}
 
 void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std::vector<Superellipsoid>& obstacles) {
@@ -44,6 +51,7 @@ void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std
   for (const auto& contact : obstacles_.observe(positions_, obstacles)) {
     collisions_.push_back({t, contact.first, true, contact.second});
   }
+  for (const std::size_t uav : map_.observe(positions_)) collisions_.push_back({t, uav, true, kMapPartner});
   progress_.observe(t, positions_, velocities_);
   flights_.observe(t, positions_, obstacles, progress_);
   watchWorkspace();
@@ -82,7 +90,7 @@ bool RunMonitor::endConditionHolds() {
 RunSummary RunMonitor::summary() const {
   RunSummary summary;
   summary.min_uav_distance = pairs_.minDistance();
-  summary.min_obstacle_clearance = obstacles_.minClearance();
+  summary.min_obstacle_clearance = lesser(obstacles_.minClearance(), map_.minClearance());
   summary.collisions = collisions_;
   summary.mission_time = time_;
   summary.path_length = path_length_;

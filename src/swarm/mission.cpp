@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <vector>
 
+#include "swarm_planner/map/map_file.hpp"
+#include "swarm_planner/map/octree_conversion.hpp"
 #include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 
 namespace swarm_planner {
@@ -78,6 +81,36 @@ void checkObstacles(const Scenario& scenario, const LimitParameters& limits, con
   }
 }
 
+/// UAVs that start closer than uav_radius to an occupied voxel, or inside one.
+void checkMap(const Mission& mission, const std::string& source, Faults& faults) {
+  const double radius = mission.parameters.limits.uav_radius;
+  for (std::size_t i = 0; i < mission.scenario.uavs.size(); ++i) {
+    const ScenarioUav& uav = mission.scenario.uavs[i];
+    const double distance = mission.map->distance(uav.start, radius);
+    if (distance >= radius) continue;
+    std::ostringstream text;
+    if (distance > 0.0) {
+      text << uav.name << " starts " << distance << " m from an occupied voxel of the map, less than uav_radius "
+           << radius << " m";
+    } else {
+      text << uav.name << " starts inside an occupied voxel of the map";
+    }
+    faults.add(source, startKey(i), text.str());
+  }
+}
+
+/// The map of the scenario's file; null if it names none, and with a fault if that cannot be read.
+std::shared_ptr<const VoxelMap> loadMap(const Scenario& scenario, const std::string& source, Faults& faults) {
+  if (scenario.map_file.empty()) return nullptr;
+  std::string why;
+  std::shared_ptr<const VoxelMap> map;
+  if (const std::optional<OctreeData> data = readMapFile(scenario.map_file, why)) {
+    map = toVoxelMap(*data, scenario.unknown_is_occupied, nullptr, why);
+  }
+  if (map == nullptr) faults.add(source, "map.octomap", "cannot use '" + scenario.map_file + "': " + why);
+  return map;
+}
+
 void checkWorkspace(const Scenario& scenario, const std::string& source, Faults& faults) {
   if (!scenario.workspace) return;
   for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
@@ -99,14 +132,18 @@ bool isFaulty(const Faults& faults, const std::string& name) {
 /// The mission of a scenario read without faults other than those in `faults`. Throws ConfigError that lists all.
 Mission resolve(const Scenario& scenario, const ParameterMap& given, const std::string& source, Faults& faults) {
   const bool scenario_stands = faults.empty();
-  Mission mission{scenario, resolveParameters(given, scenario.overrides, source, faults)};
+  Mission mission{scenario, resolveParameters(given, scenario.overrides, source, faults),
+                  loadMap(scenario, source, faults)};
   if (scenario_stands) {
     // A distance that is a fault itself stands at its default: starts judged by it would mislead.
     const LimitParameters& limits = mission.parameters.limits;
     if (!isFaulty(faults, "pair_distance") && !isFaulty(faults, "pair_distance_vertical")) {
       checkPairs(scenario.uavs, limits, source, faults);
     }
-    if (!isFaulty(faults, "uav_radius")) checkObstacles(scenario, limits, source, faults);
+    if (!isFaulty(faults, "uav_radius")) {
+      checkObstacles(scenario, limits, source, faults);
+      if (mission.map != nullptr) checkMap(mission, source, faults);
+    }
     checkWorkspace(scenario, source, faults);
   }
   faults.throwIfAny();

@@ -74,7 +74,13 @@ const FaultCase kRoot[] = {
     {"MissingFrame", "frame_id: map\n", "", "frame_id", "missing, expected text"},
     {"FrameWithLeadingSlash", "frame_id: map", "frame_id: /map", "frame_id", "found \"/map\", expected a tf2 frame"},
     {"ObstaclesIsNothing", "overrides:", "obstacles:\noverrides:", "obstacles", "repeated key"},
-    {"MapsAreNotSupported", "workspace:", "map: {octomap: some.bt}\nworkspace:", "map", "maps are not supported yet"},
+    {"MapOfNothing", "workspace:", "map: {}\nworkspace:", "map", "found neither octomap nor unknown_space"},
+    {"MapWithoutFile", "workspace:", "map: {octomap: \"\"}\nworkspace:", "map.octomap", "found \"\", expected text"},
+    {"MapIsAName", "workspace:", "map: some.bt\nworkspace:", "map", "found \"some.bt\", expected a map"},
+    {"MapWithUnknownKey", "workspace:", "map: {octomap: a.bt, unknown: free}\nworkspace:", "map.unknown",
+     "unknown key"},
+    {"UnknownSpaceInOtherWords", "workspace:", "map: {unknown_space: full}\nworkspace:", "map.unknown_space",
+     "found \"full\", expected free or occupied"},
 };
 INSTANTIATE_TEST_SUITE_P(Root, ScenarioFault, testing::ValuesIn(kRoot), caseName);
 

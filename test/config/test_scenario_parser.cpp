@@ -125,6 +125,22 @@ TEST(ScenarioParser, AUavMayBelongToAnotherSystem) {
   expectSame(read, scenario);
 }
 
+TEST(ScenarioParser, AMapMayBeNamedAndUnknownSpaceBeOccupied) {
+  Scenario scenario = crossing();
+  EXPECT_TRUE(parsed(toYaml(scenario)).map_file.empty());
+  EXPECT_FALSE(parsed(toYaml(scenario)).unknown_is_occupied);
+  for (const char* file : {"", "maps/some.bt", "with space \"and\".ot"}) {
+    for (const bool occupied : {false, true}) {
+      scenario.map_file = file;
+      scenario.unknown_is_occupied = occupied;
+      const Scenario read = parsed(toYaml(scenario));
+      EXPECT_EQ(read.map_file, file);
+      EXPECT_EQ(read.unknown_is_occupied, occupied);
+      expectSame(read, scenario);
+    }
+  }
+}
+
 TEST(ScenarioWriter, ReadsBackExactly) {
   for (const Scenario& scenario : {paperSix(), paperScaling(32), paperMonteCarlo(6, 1), paperMonteCarlo(16, 77),
                                    crossing(), circleSwap(7, 3.3, 5)}) {

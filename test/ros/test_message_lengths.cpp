@@ -72,6 +72,17 @@ TEST(MessageLengths, OfEveryInputAreChecked) {
     point.accelerations.resize(1);
   }
   expectBounded(trajectory, 10);
+  OctomapMessage map;
+  map.header = header();
+  map.id = "OcTree";
+  map.data.resize(20);
+  expectBounded(map, 3);
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header = header();
+  cloud.fields.resize(3);
+  for (auto& field : cloud.fields) field.name = "x";
+  cloud.data.resize(20);
+  expectBounded(cloud, 6);
   PlannerStatus status;
   status.header = header();
   status.uavs.resize(3);

@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "support/temporary_directory.hpp"
+#include "swarm_planner/map/octree_writer.hpp"
 #include "swarm_planner/swarm/mission.hpp"
 
 namespace swarm_planner {
@@ -254,6 +256,74 @@ TEST(Obstacle, HasTheShapeOfItsScenario) {
   EXPECT_EQ((shape.velocity() - Vector3(0, 1, 0)).norm(), 0.0);
   obstacle.radii.y() = 0.0;
   EXPECT_THROW(makeObstacle(obstacle), std::invalid_argument);
+}
+
+/// A scenario whose file lies beside a map: a wall of voxels 1 m wide at x = 4 to 5 m, y from 0 to 10, z from 5 to 15.
+class MissionWithMap : public testing::Test {
+ protected:
+  MissionWithMap() {
+    OctreeWriter writer(1.0);
+    for (int y = 0; y < 10; ++y) {
+      for (int z = 5; z < 15; ++z) writer.set({4, y, z}, true);
+    }
+    const std::vector<std::uint8_t> bytes = writer.file();
+    std::ofstream(directory_.file("wall.bt"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+
+  std::string write(Scenario scenario, const std::string& map_file) {
+    scenario.map_file = map_file;
+    const std::string path = directory_.file("scenario.yaml");
+    std::ofstream(path) << toYaml(scenario);
+    return path;
+  }
+  std::string faults(const Scenario& scenario, const std::string& map_file) {
+    try {
+      loadMission(write(scenario, map_file), {});
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  TemporaryDirectory directory_;
+};
+
+TEST_F(MissionWithMap, TheMapIsReadFromBesideTheScenario) {
+  const Mission mission = loadMission(write(soundScenario(), "wall.bt"), {});
+  ASSERT_NE(mission.map, nullptr);
+  EXPECT_EQ(mission.map->occupiedCount(), 100U);
+  EXPECT_NE(loadMission(write(soundScenario(), directory_.file("wall.bt")), {}).map, nullptr) << "an absolute path";
+  EXPECT_EQ(loadMission(write(soundScenario(), ""), {}).map, nullptr);
+}
+
+TEST_F(MissionWithMap, UavsThatStartInTheMapAreAllNamed) {
+  Scenario scenario = soundScenario();
+  scenario.uavs[0].start = Vector3(3.8, 2.5, 10.0);
+  scenario.uavs[1].start = Vector3(4.5, 7.5, 10.0);
+  const std::string text = faults(scenario, "wall.bt");
+  EXPECT_NE(text.find("uavs[0].start: alpha starts 0.2 m from an occupied voxel of the map, less than uav_radius 0.3"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("uavs[1].start: bravo starts inside an occupied voxel of the map"), std::string::npos) << text;
+}
+
+TEST_F(MissionWithMap, UavsThatStartInUnknownSpaceAreNamedWhereItCountsAsOccupied) {
+  Scenario scenario = soundScenario();
+  scenario.unknown_is_occupied = true;
+  const std::string text = faults(scenario, "wall.bt");
+  EXPECT_NE(text.find("uavs[0].start: alpha starts inside an occupied voxel"), std::string::npos) << text;
+}
+
+TEST_F(MissionWithMap, ABadMapIsOneFaultAmongTheOthers) {
+  Scenario scenario = soundScenario();
+  scenario.uavs[1].start = scenario.uavs[0].start + Vector3(1, 0, 0);
+  const std::string text = faults(scenario, "missing.bt");
+  EXPECT_NE(text.find("map.octomap: cannot use '" + directory_.file("missing.bt") + "': there is no such file"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("inside the pair ellipsoid"), std::string::npos) << text;
+  EXPECT_NE(faults(soundScenario(), "scenario.yaml").find("it is no file of OctoMap"), std::string::npos);
 }
 
 }  // namespace

@@ -59,6 +59,11 @@ struct Scenario {
   EndCondition end;
   std::vector<ScenarioUav> uavs;
   std::vector<ScenarioObstacle> obstacles;
+  /// An OctoMap file whose occupied voxels are obstacles; empty: there is none. Whether it can be read is found out
+  /// where the mission is put together.
+  std::string map_file;
+  /// Whatever a map does not know to be free counts as occupied; of the file's map and of those that come in flight.
+  bool unknown_is_occupied = false;
   std::optional<Workspace> workspace;
   /// Planner and vehicle parameters that this scenario sets, by their flat names.
   std::map<std::string, double> overrides;
@@ -68,10 +73,10 @@ struct Scenario {
 
 /// Parses a scenario from a YAML file. Every fault (unknown, missing or repeated key, wrong type,
 /// non-finite number, duplicate name or id, value out of range) is added to `faults`; the scenario
-/// returned is usable only if none was added.
+/// returned is usable only if none was added. A relative map_file is one beside the scenario's file.
 Scenario parseScenarioFile(const std::string& path, Faults& faults);
 
-/// The same from YAML text; `source` names it in faults.
+/// The same from YAML text; `source` names it in faults. map_file stays as it is written.
 Scenario parseScenarioText(const std::string& yaml, const std::string& source, Faults& faults);
 
 /// The scenario as the text of a scenario file. Parsing it gives back exactly the same numbers, and the same

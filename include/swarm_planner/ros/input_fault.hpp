@@ -23,8 +23,9 @@ enum class InputFault : std::size_t {
   kFrame,       ///< unknown, or no name of a frame
   kTooLong,     ///< more bytes than the input takes; not even read
   kMalformed,   ///< the bytes are no message of this type
+  kMap,         ///< an octree that is empty, cut off, of another type, of a resolution that no map has
 };
-constexpr std::size_t kInputFaults = 13;
+constexpr std::size_t kInputFaults = 14;
 
 /// In words, for operators. A string literal.
 const char* faultText(InputFault fault);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nav_msgs/Odometry.h>
+#include <sensor_msgs/PointCloud2.h>
 #include <tf2_msgs/TFMessage.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
@@ -13,6 +14,7 @@
 #include "swarm_planner/ObstacleTrackArray.h"
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/SetReference.h"
+#include "swarm_planner/ros/octomap_message.hpp"
 
 namespace swarm_planner {
 
@@ -29,6 +31,10 @@ template <>
 bool lengthsFit<tf2_msgs::TFMessage>(const std::uint8_t* bytes, std::size_t size);
 template <>
 bool lengthsFit<trajectory_msgs::MultiDOFJointTrajectory>(const std::uint8_t* bytes, std::size_t size);
+template <>
+bool lengthsFit<OctomapMessage>(const std::uint8_t* bytes, std::size_t size);
+template <>
+bool lengthsFit<sensor_msgs::PointCloud2>(const std::uint8_t* bytes, std::size_t size);
 template <>
 bool lengthsFit<PlannerStatus>(const std::uint8_t* bytes, std::size_t size);
 template <>

@@ -9,9 +9,13 @@ namespace swarm_planner {
 // Names are relative, so that launch files can remap them and push the nodes into a namespace; "~" marks those under
 // the node's private name. Names of UAV topics are parameters (see node_options.hpp).
 constexpr char kObstacleTracksTopic[] = "obstacle_tracks";
+constexpr char kOctomapBinaryTopic[] = "octomap_binary";  // as octomap_server has it
+constexpr char kOctomapFullTopic[] = "octomap_full";      // as octomap_server has it
+constexpr char kMapCloudTopic[] = "map_cloud";
 constexpr char kPlansTopic[] = "plans";                        // ~
 constexpr char kStatusTopic[] = "status";                      // ~
 constexpr char kMarkersTopic[] = "markers";                    // ~
+constexpr char kMapMarkersTopic[] = "map_markers";             // ~
 constexpr char kSetReferenceService[] = "set_reference";       // ~
 constexpr char kInjectFaultService[] = "inject_fault";         // ~
 constexpr char kStartService[] = "start";                      // ~
@@ -34,6 +38,8 @@ constexpr char kBaseLinkFrame[] = "{uav}/base_link";
 constexpr std::uint32_t kOdometryQueueSize = 1;
 constexpr std::uint32_t kTrajectoryQueueSize = 1;
 constexpr std::uint32_t kObstacleTracksQueueSize = 10;
+constexpr std::uint32_t kMapQueueSize = 1;
+constexpr std::uint32_t kMapCloudQueueSize = 5;
 constexpr std::uint32_t kPlansQueueSize = 1;
 constexpr std::uint32_t kStatusQueueSize = 10;
 constexpr std::uint32_t kMarkersQueueSize = 1;
@@ -43,10 +49,11 @@ constexpr std::uint32_t kTfQueueSize = 100;
 
 // Longer messages are not read [bytes]. They leave room for names and for sources that fill every field.
 constexpr std::uint32_t kMostOdometryBytes = 4096;
-constexpr std::uint32_t kMostTrackBytes = 16000000;      // 100,000 tracks, of which max_tracks are used
-constexpr std::uint32_t kMostTfBytes = 1000000;          // 7,000 transforms with short names
-constexpr std::uint32_t kMostTrajectoryBytes = 8000000;  // 40,000 points
-constexpr std::uint32_t kMostReferenceBytes = 300000;    // kMostPathPoints points, and names
+constexpr std::uint32_t kMostTrackBytes = 16000000;        // 100,000 tracks, of which max_tracks are used
+constexpr std::uint32_t kMostMapMessageBytes = 200000000;  // 30 million voxels in full
+constexpr std::uint32_t kMostTfBytes = 1000000;            // 7,000 transforms with short names
+constexpr std::uint32_t kMostTrajectoryBytes = 8000000;    // 40,000 points
+constexpr std::uint32_t kMostReferenceBytes = 300000;      // kMostPathPoints points, and names
 constexpr std::uint32_t kMostStatusBytesPerUav = 2048;
 
 /// Between two messages of a kind to the console [s] of wall time.

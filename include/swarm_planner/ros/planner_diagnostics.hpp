@@ -9,12 +9,14 @@
 
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/ros/input_store.hpp"
+#include "swarm_planner/ros/map_input.hpp"
 #include "swarm_planner/ros/status_tally.hpp"
 #include "swarm_planner/ros/transform_input.hpp"
 
 namespace swarm_planner {
 
-/// The planner's health on /diagnostics: the cycle, the obstacle tracks, the transforms, and one entry per UAV.
+/// The planner's health on /diagnostics: the cycle, the obstacle tracks, the transforms, the map, and one entry per
+/// UAV.
 class PlannerDiagnostics {
  public:
   /// `track_timeout` [s]: tracks older than that are out of use.
@@ -26,7 +28,7 @@ class PlannerDiagnostics {
   void addReference(bool accepted) { ++(accepted ? references_ : references_refused_); }
   /// Publishes the state since the last call; `now` [s] is ROS time, `clock` what is amiss with it.
   void publish(const std::vector<UavInput>& uavs, const TrackInput& tracks, const TransformInputReport& transforms,
-               double now, const std::string& clock);
+               const MapInputReport& map, double now, const std::string& clock);
   /// Time has jumped back: rates start anew.
   void restart();
 
@@ -35,6 +37,7 @@ class PlannerDiagnostics {
   void describeCycle(Status& status);
   void describeTracks(Status& status);
   void describeTransforms(Status& status);
+  void describeMap(Status& status);
   void describeUav(std::size_t uav, Status& status);
   double rate(std::uint64_t count, std::uint64_t last_count) const;
 
@@ -45,6 +48,7 @@ class PlannerDiagnostics {
   std::vector<UavInput> uavs_, last_uavs_;
   TrackInput tracks_, last_tracks_;
   TransformInputReport transforms_, last_transforms_;
+  MapInputReport map_, last_map_;
   std::uint64_t references_ = 0, references_refused_ = 0;
   double now_ = 0.0, last_time_ = 0.0;  ///< [s]
   std::string clock_;                   ///< what is amiss with ROS time

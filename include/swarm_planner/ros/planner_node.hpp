@@ -16,6 +16,8 @@
 #include "swarm_planner/ros/clock_watch.hpp"
 #include "swarm_planner/ros/command_services.hpp"
 #include "swarm_planner/ros/flight_record.hpp"
+#include "swarm_planner/ros/map_input.hpp"
+#include "swarm_planner/ros/map_markers.hpp"
 #include "swarm_planner/ros/marker_publisher.hpp"
 #include "swarm_planner/ros/planner_diagnostics.hpp"
 #include "swarm_planner/ros/planner_inputs.hpp"
@@ -66,6 +68,8 @@ class PlannerNode {
   const double cycle_period_;  ///< [s]
   const int setpoint_repeats_;
   PlannerInputs inputs_;
+  MapMarkers map_markers_;
+  MapInput maps_;
   PlannerOutputs outputs_;
   PlannerDiagnostics diagnostics_;
   MarkerPublisher markers_;

@@ -9,6 +9,15 @@
 
 namespace swarm_planner {
 
+/// How maps are taken in and drawn.
+struct MapOptions {
+  double resolution = 0.1;    ///< of a map made from clouds alone [m]
+  double cloud_range = 5.0;   ///< points farther from the sensor make no voxel occupied [m]
+  double cloud_period = 0.2;  ///< clouds of so long become a new map together [s]
+  double body_radius = 0.5;   ///< around each UAV, within which points are its own [m]
+  int marker_voxels = 50000;  ///< drawn at most
+};
+
 /// When setpoints are sent. Their stamp is their epoch either way.
 enum class SetpointDelivery {
   kAtOnce,   ///< up to a cycle period before the epoch, for drivers that honour the stamp
@@ -31,7 +40,8 @@ struct PlannerNodeOptions {
   double uav_marker_size = 0.0;    ///< [m], 0: by the scene's size
   double trail_duration = 60.0;    ///< [s]
   double diagnostic_period = 1.0;  ///< [s]
-  std::string flight_record;       ///< path of FlightRecord, "auto": defaultRecordPath, empty: none
+  MapOptions map;
+  std::string flight_record;  ///< path of FlightRecord, "auto": defaultRecordPath, empty: none
 };
 
 /// Every parameter of PlannerNodeOptions with default and range.

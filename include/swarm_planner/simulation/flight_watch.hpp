@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
 #include "swarm_planner/simulation/progress_watch.hpp"
 
@@ -20,7 +23,7 @@ struct UavFlight {
   double lag = 0.0;                    ///< at the end [m]
   /// Distance at the end from the plane through its target across the reference there [m]; positive: behind it.
   double behind_target = 0.0;
-  bool target_inside = false;               ///< at the end its target is inside an obstacle, S < 1
+  bool target_inside = false;               ///< at the end its target is inside an obstacle, S < 1, or a voxel
   std::optional<double> target_inside_ago;  ///< how long before the end it was so last [s]; empty: never
 
   /// More than 20 m from its target's plane, without a reason that lies in the target: inside an obstacle, or left one
@@ -37,7 +40,8 @@ struct UavFlight {
 /// Follows every UAV on its way: how far it flew, when it arrived, and whether its target could be reached at all.
 class FlightWatch {
  public:
-  explicit FlightWatch(std::size_t uavs) : uavs_(uavs) {}
+  /// `map` may be null.
+  FlightWatch(std::size_t uavs, std::shared_ptr<const VoxelMap> map) : map_(std::move(map)), uavs_(uavs) {}
 
   /// One instant, `t` [s] since t = 0 of the run; `progress` has observed it.
   void observe(double t, const std::vector<Vector3>& positions, const std::vector<Superellipsoid>& obstacles,
@@ -56,6 +60,7 @@ class FlightWatch {
     std::optional<double> target_inside_at;  ///< the last time
   };
 
+  std::shared_ptr<const VoxelMap> map_;
   std::vector<Uav> uavs_;
   double time_ = 0.0;
   bool begun_ = false;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "swarm_planner/simulation/closed_loop_cost.hpp"
 #include "swarm_planner/simulation/flight_watch.hpp"
+#include "swarm_planner/simulation/map_watch.hpp"
 #include "swarm_planner/simulation/obstacle_watch.hpp"
 #include "swarm_planner/simulation/pair_watch.hpp"
 #include "swarm_planner/simulation/progress_watch.hpp"
@@ -29,20 +31,24 @@ struct MeanMax {
   double max = 0.0;
 };
 
+/// Stands for the map in place of an obstacle's index.
+constexpr std::size_t kMapPartner = std::numeric_limits<std::size_t>::max();
+
 /// A UAV came too close to something: one entry however long it lasted.
 struct Collision {
   double time = 0.0;    ///< when it began [s]
   std::size_t uav = 0;  ///< index
   bool with_obstacle = false;
-  std::size_t partner = 0;  ///< index of the other UAV or of the obstacle
+  std::size_t partner = 0;  ///< index of the other UAV or of the obstacle, or kMapPartner
 };
 
 /// What a run did, measured on the simulated vehicles. Empty: there was no partner to measure against.
 struct RunSummary {
-  std::optional<double> min_uav_distance;        ///< centre to centre [m]
-  std::optional<double> min_obstacle_clearance;  ///< centre to surface S = 1, minus uav_radius [m]
-  std::vector<Collision> collisions;             ///< in the order in which they began
-  MeanMax final_lag;                             ///< over the UAVs, see ProgressWatch [m]
+  std::optional<double> min_uav_distance;  ///< centre to centre [m]
+  /// Centre to surface S = 1, or to an occupied voxel of the map, minus uav_radius [m].
+  std::optional<double> min_obstacle_clearance;
+  std::vector<Collision> collisions;  ///< in the order in which they began
+  MeanMax final_lag;                  ///< over the UAVs, see ProgressWatch [m]
   int stuck_uavs = 0;
   int arrived_uavs = 0;
   double mission_time = 0.0;       ///< of the last sample [s]
@@ -93,6 +99,7 @@ class RunMonitor {
   std::vector<Collision> collisions_;
   PairWatch pairs_;
   ObstacleWatch obstacles_;
+  MapWatch map_;
   ProgressWatch progress_;
   FlightWatch flights_;
   ClosedLoopCost cost_;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 
 #include "swarm_planner/config/parameter_io.hpp"
 #include "swarm_planner/config/scenario.hpp"
+#include "swarm_planner/map/voxel_map.hpp"
 #include "swarm_planner/obstacles/superellipsoid.hpp"
 
 namespace swarm_planner {
@@ -14,11 +16,12 @@ namespace swarm_planner {
 struct Mission {
   Scenario scenario;
   Parameters parameters;
+  std::shared_ptr<const VoxelMap> map;  ///< of the scenario's map_file; null: there is none
 };
 
 /// Reads a scenario file and resolves its parameters on top of `given`. Throws ConfigError that lists every
 /// fault, including UAVs that start inside each other's pair ellipsoid (14), closer than uav_radius to an obstacle's
-/// surface, or outside the workspace.
+/// surface or to an occupied voxel of the map, or outside the workspace, and a map file that cannot be read.
 Mission loadMission(const std::string& scenario_path, const ParameterMap& given);
 
 /// The same for a scenario made by a program; it is held to the rules of a scenario file. `source` names it in faults;

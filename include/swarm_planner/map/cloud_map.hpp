@@ -1,0 +1,40 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "swarm_planner/config/types.hpp"
+#include "swarm_planner/map/octree_data.hpp"
+#include "swarm_planner/map/voxel_map.hpp"
+
+namespace swarm_planner {
+
+/// A map made from point clouds by OctoMap: a cell is occupied where points lie, and free where the sensor saw through.
+class CloudMap {
+ public:
+  /// An empty one. `resolution` [m], within that of maps.
+  explicit CloudMap(double resolution);
+  /// One that clouds are added to. Throws std::invalid_argument if the octree cannot be read.
+  explicit CloudMap(const OctreeData& start);
+  ~CloudMap();
+  CloudMap(CloudMap&&) noexcept;
+  CloudMap& operator=(CloudMap&&) noexcept;
+
+  double resolution() const;
+
+  /// What a sensor at `origin` sees. Up to `max_range` [m] a ray's cells are free, and that of its point is occupied;
+  /// of a point farther away only the free part counts. Returns how many points were used: finite ones; none if the
+  /// sensor is so far from the planning frame's origin that no octree reaches there.
+  std::size_t insert(const std::vector<Vector3>& points, const Vector3& origin, double max_range);
+
+  /// Its present state, as toVoxelMap() of an octree.
+  std::shared_ptr<const VoxelMap> voxels(bool unknown_is_occupied, const VoxelMap* previous, std::string& why) const;
+
+ private:
+  struct Tree;  // keeps OctoMap's headers from whoever includes this
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace swarm_planner

@@ -1,0 +1,98 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+//
+// If these fail, a wall that a sensor sees is not in the map, one that is gone stays, or a bad point spoils it.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "octree_files.hpp"
+#include "swarm_planner/map/cloud_map.hpp"
+
+namespace swarm_planner {
+namespace {
+
+constexpr double kRange = 5.0;
+
+/// A wall at x [m], as a sensor sees it.
+std::vector<Vector3> wallAt(double x) {
+  std::vector<Vector3> points;
+  for (double y = -0.95; y < 1.0; y += 0.1) {
+    for (double z = 0.05; z < 2.0; z += 0.1) points.emplace_back(x, y, z);
+  }
+  return points;
+}
+
+TEST(CloudMap, AWallIsOccupiedAndTheSpaceBeforeItIsKnown) {
+  CloudMap cloud(0.1);
+  EXPECT_EQ(cloud.insert(wallAt(3.05), Vector3(0.05, 0.05, 1.05), kRange), wallAt(3.05).size());
+  std::string why;
+  const auto map = cloud.voxels(true, nullptr, why);
+  ASSERT_NE(map, nullptr) << why;
+  EXPECT_TRUE(map->isOccupied(Vector3(3.05, 0.05, 1.05)));
+  EXPECT_FALSE(map->isOccupied(Vector3(2.05, 0.05, 1.05)));
+  EXPECT_TRUE(map->isOccupied(Vector3(3.55, 0.05, 1.05))) << "behind the wall nothing is known";
+}
+
+TEST(CloudMap, AWallThatIsSeenThroughGoes) {
+  CloudMap cloud(0.1);
+  const Vector3 sensor(0.05, 0.05, 1.05);
+  cloud.insert(wallAt(2.05), sensor, kRange);
+  for (int i = 0; i < 10; ++i) cloud.insert(wallAt(4.05), sensor, kRange);
+  std::string why;
+  const auto map = cloud.voxels(false, nullptr, why);
+  EXPECT_FALSE(map->isOccupied(Vector3(2.05, 0.05, 1.05)));
+  EXPECT_TRUE(map->isOccupied(Vector3(4.05, 0.05, 1.05)));
+}
+
+TEST(CloudMap, PointsBeyondTheRangeMakeNoWall) {
+  CloudMap cloud(0.1);
+  cloud.insert(wallAt(kRange + 1.05), Vector3(0.05, 0.05, 1.05), kRange);
+  std::string why;
+  const auto map = cloud.voxels(false, nullptr, why);
+  ASSERT_NE(map, nullptr) << why;
+  EXPECT_EQ(map->occupiedCount(), 0U);
+}
+
+TEST(CloudMap, BadPointsAreLeftOut) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  CloudMap cloud(0.1);
+  const std::vector<Vector3> points = {{kNan, 0, 0}, {1, kInfinity, 0}, {1e200, 1e200, 0}, {2.05, 0.05, 1.05}};
+  EXPECT_EQ(cloud.insert(points, Vector3(0.05, 0.05, 1.05), kRange), 2U);
+  EXPECT_EQ(cloud.insert(points, Vector3(kNan, 0, 0), kRange), 0U);
+  EXPECT_EQ(cloud.insert(points, Vector3(1e9, 0, 0), kRange), 0U);
+  std::string why;
+  const auto map = cloud.voxels(false, nullptr, why);
+  ASSERT_NE(map, nullptr) << why;
+  EXPECT_EQ(map->occupiedCount(), 1U);
+}
+
+TEST(CloudMap, AnEmptyOneIsNoMap) {
+  std::string why;
+  EXPECT_EQ(CloudMap(0.1).voxels(false, nullptr, why), nullptr);
+  EXPECT_FALSE(why.empty());
+}
+
+TEST(CloudMap, CloudsAreAddedToAMapOfAnyKind) {
+  const auto tree = randomTree(0.1, 6);
+  const auto colored = randomTree<octomap::ColorOcTree>(0.1, 6);
+  for (const auto& bytes : {binaryFile(tree), fullFile(tree), fullFile(colored)}) {
+    std::string why;
+    const auto before = mapOf(bytes, why);
+    CloudMap cloud(*parseMapFile(bytes, why));
+    EXPECT_EQ(cloud.voxels(false, nullptr, why)->occupiedCount(), before->occupiedCount());
+    cloud.insert(wallAt(8.05), Vector3(7.05, 0.05, 1.05), kRange);
+    const auto after = cloud.voxels(false, before.get(), why);
+    EXPECT_EQ(after->occupiedCount(), before->occupiedCount() + wallAt(8.05).size());
+  }
+}
+
+TEST(CloudMap, ABadMapIsRefused) {
+  OctreeData bad;
+  bad.resolution = 0.1;
+  bad.bytes.assign(100000, 0x03);
+  EXPECT_THROW(CloudMap{bad}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace swarm_planner
