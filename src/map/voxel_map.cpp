@@ -30,10 +30,20 @@ class NearestSearch {
 
   void lookIn(const VoxelChunk& chunk, const VoxelIndex& corner) {
     corner_ = corner;
-    if (squaredGap({{0, 0, 0}, {kSide - 1, kSide - 1, kSide - 1}}) >= best_) return;
-    for (int z = 0; z < VoxelChunk::kBlocks; ++z) {
-      for (int y = 0; y < VoxelChunk::kBlocks; ++y) {
-        for (int x = 0; x < VoxelChunk::kBlocks; ++x) {
+    const double reach = std::sqrt(best_);
+    VoxelIndex first_block;
+    VoxelIndex last_block;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double own = p_[axis] - corner[axis];
+      first_[axis] = static_cast<int>(std::clamp(std::floor(own - reach), 0.0, static_cast<double>(kSide)));
+      last_[axis] = static_cast<int>(std::clamp(std::floor(own + reach), -1.0, kSide - 1.0));
+      if (first_[axis] > last_[axis]) return;
+      first_block[axis] = first_[axis] / VoxelChunk::kBlock;
+      last_block[axis] = last_[axis] / VoxelChunk::kBlock;
+    }
+    for (int z = first_block.z(); z <= last_block.z(); ++z) {
+      for (int y = first_block.y(); y <= last_block.y(); ++y) {
+        for (int x = first_block.x(); x <= last_block.x(); ++x) {
           const VoxelChunk::Range& range = chunk.block(x, y, z);
           if (!range.isEmpty() && squaredGap(range) < best_) lookInBlock(chunk, range);
         }
@@ -56,39 +66,39 @@ class NearestSearch {
   }
 
   void lookInBlock(const VoxelChunk& chunk, const VoxelChunk::Range& range) {
-    const auto x = static_cast<unsigned>(range.first[0]) / VoxelChunk::kBlock;
-    const std::uint32_t mask = 0xffU << (x * VoxelChunk::kBlock);
-    for (int z = range.first[2]; z <= range.last[2]; ++z) {
+    const int first_x = std::max<int>(range.first[0], first_.x());
+    const int last_x = std::min<int>(range.last[0], last_.x());
+    for (int z = std::max<int>(range.first[2], first_.z()); z <= std::min<int>(range.last[2], last_.z()); ++z) {
       const double above = corner_.z() + z;
       const double dz = gapTo(p_.z(), above, above + 1.0);
       if (dz * dz >= best_) continue;
-      for (int y = range.first[1]; y <= range.last[1]; ++y) {
-        const std::uint32_t row = chunk.row(y, z) & mask;
+      for (int y = std::max<int>(range.first[1], first_.y()); y <= std::min<int>(range.last[1], last_.y()); ++y) {
+        const std::uint32_t row = chunk.row(y, z);
         if (row == 0) continue;
         const double across = corner_.y() + y;
         const double dy = gapTo(p_.y(), across, across + 1.0);
-        if (dy * dy + dz * dz < best_) lookInRow(row, across, dy, above, dz);
+        if (dy * dy + dz * dz >= best_) continue;
+        for (int x = first_x; x <= last_x; ++x) {
+          if (((row >> x) & 1U) != 0) consider(Vector3(corner_.x() + x, across, above), dy * dy + dz * dz);
+        }
       }
     }
   }
 
-  void lookInRow(std::uint32_t row, double y, double dy, double z, double dz) {
-    for (int x = 0; row != 0; ++x, row >>= 1U) {
-      if ((row & 1U) == 0) continue;
-      const double along = corner_.x() + x;
-      const double dx = gapTo(p_.x(), along, along + 1.0);
-      const double squared = dx * dx + dy * dy + dz * dz;
-      if (squared >= best_) continue;
-      best_ = squared;
-      const Vector3 low(along, y, z);
-      point_ = p_.cwiseMax(low).cwiseMin(low + Vector3::Ones());
-    }
+  /// The voxel from `low` on; `squared`: what its distance has across x.
+  void consider(const Vector3& low, double squared) {
+    const double dx = gapTo(p_.x(), low.x(), low.x() + 1.0);
+    if (dx * dx + squared >= best_) return;
+    best_ = dx * dx + squared;
+    point_ = p_.cwiseMax(low).cwiseMin(low + Vector3::Ones());
   }
 
   Vector3 p_;
   double best_;  ///< squared
   Vector3 point_ = Vector3::Zero();
-  VoxelIndex corner_ = VoxelIndex::Zero();
+  VoxelIndex corner_ = VoxelIndex::Zero();  ///< of the chunk
+  VoxelIndex first_ = VoxelIndex::Zero();   ///< within reach, in the chunk
+  VoxelIndex last_ = VoxelIndex::Zero();
 };
 
 }  // namespace

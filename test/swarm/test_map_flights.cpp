@@ -38,7 +38,7 @@ TEST(MapFlights, SixQueueAtADoor) {
 
 TEST(MapFlights, StayInARoomWithoutADoorThatIsWideEnough) {
   MappedFlight flight(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(4, -1.5, 1.2)}), hallWithDoor(0.3));
-  EXPECT_EQ(flight.fly(60), 0U);
+  EXPECT_EQ(flight.fly(8), 0U);
   EXPECT_GE(flight.leastVoxelDistance(), 0.2);
   EXPECT_LT(flight.flight().vehicle(0).p.x(), 0.0);
 }
