@@ -32,8 +32,8 @@ TEST(CorridorDrawing, PlanesCutTheBox) {
   FreePolyhedron polyhedron = cubeOf(1.0);
   polyhedron.count = 1;
   polyhedron.planes[0].n = Vector3(1, 1, 0).normalized();
-  polyhedron.planes[0].offset = 0.0;  // through the middle: a prism with a triangle at either end
-  EXPECT_NEAR(lengthOf(edgesOf(polyhedron)), 2.0 * (2.0 * (2.0 + 2.0 + std::sqrt(8.0)) + 3.0 * 2.0), 1e-9);
+  polyhedron.planes[0].offset = -0.5 / std::sqrt(2.0);  // what is left is a prism with five corners
+  EXPECT_NEAR(lengthOf(edgesOf(polyhedron)), 2.0 * (2.0 * (5.0 + std::sqrt(4.5)) + 5.0 * 2.0), 1e-9);
   polyhedron.planes[0].offset = 5.0;
   EXPECT_TRUE(edgesOf(polyhedron).empty());
 }
