@@ -2,39 +2,69 @@
 #include "swarm_planner/problem/map_corridor.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "swarm_planner/problem/uav_problem.hpp"
 
 namespace swarm_planner {
 namespace {
 
-constexpr double kEnough = 0.5;   // of the distance: a segment with less leads through, or nearly
-constexpr int kReliefStages = 5;  // until nothing is waived any more
+constexpr double kEnough = 0.5;         // of the distance: a segment with less leads through, or nearly
+constexpr int kReliefStages = 5;        // until nothing is waived any more
+constexpr double kGatheringStages = 5;  // from rest to full speed along the path, and back to it from beside
 
-/// The straight way of the target during a stage.
-SegmentPoints targetSegment(const UavProblem& problem, std::size_t k) {
-  const Vector3& from = problem.targets[k].p;
-  const Vector3 step = (problem.targets[k + 1].p - from) / 3.0;
-  return {from, from + step, from + 2.0 * step, problem.targets[k + 1].p};
+SegmentPoints straight(const Vector3& from, const Vector3& to) {
+  return {from, from + (to - from) / 3.0, from + 2.0 * (to - from) / 3.0, to};
 }
 
 }  // namespace
 
-void CorridorBuilder::build(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem) {
+void CorridorBuilder::buildAbout(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem) {
   problem.corridor.active = request.map != nullptr;
   if (request.map == nullptr) return;
-  const double enough = kEnough * request.distance;
+  findWay(problem);
   for (std::size_t k = 0; k < kHorizon; ++k) {
     const SegmentPoints segment = segmentPoints(plan.knots[k], plan.knots[k + 1], plan.dt);
-    search_.find(*request.map, segment, request.band, other_);
-    if (k > 0 && other_.clearance < enough) {
-      search_.find(*request.map, targetSegment(problem, k), request.band, other_);
-      if (other_.clearance < enough) other_ = polyhedron_;
-    }
-    polyhedron_ = other_;
-    assign(request, problem.start.p, static_cast<int>(k), problem.corridor.segments[k]);
+    choose(request, segment, way_[k], static_cast<int>(k), problem);
   }
+}
+
+void CorridorBuilder::buildAlongPath(const CorridorRequest& request, UavProblem& problem) {
+  problem.corridor.active = request.map != nullptr;
+  if (request.map == nullptr) return;
+  findWay(problem);
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    choose(request, way_[k], straight(way_[k][3], way_[k][3]), static_cast<int>(k), problem);
+  }
+}
+
+void CorridorBuilder::findWay(const UavProblem& problem) {
+  const PathPoint foot = problem.path->at(problem.progress);
+  const Vector3 beside = problem.start.p - foot.position;
+  const double full_speed = problem.bounds.max_speed;
+  double speed = std::clamp(problem.start.v.dot(foot.tangent), 0.0, full_speed);
+  double way = problem.progress;
+  Vector3 from = problem.start.p;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    speed = std::min(speed + full_speed / kGatheringStages, full_speed);
+    const double wanted = problem.targets[k + 1].arc_length;
+    way = std::max(std::min(wanted, way + speed * problem.dt), way);
+    const double left = std::max(1.0 - static_cast<double>(k + 1) / kGatheringStages, 0.0);
+    const Vector3 to = problem.path->at(way).position + left * beside;
+    way_[k] = straight(from, to);
+    from = to;
+  }
+}
+
+void CorridorBuilder::choose(const CorridorRequest& request, const SegmentPoints& first, const SegmentPoints& second,
+                             int k, UavProblem& problem) {
+  const double enough = kEnough * request.distance;
+  search_.find(*request.map, first, request.band, other_);
+  if (k > 0 && other_.clearance < enough) {
+    search_.find(*request.map, second, request.band, other_);
+    if (other_.clearance < enough) other_ = polyhedron_;
+  }
+  polyhedron_ = other_;
+  assign(request, problem.start.p, k, problem.corridor.segments[static_cast<std::size_t>(k)]);
 }
 
 void CorridorBuilder::assign(const CorridorRequest& request, const Vector3& start, int k,

@@ -34,13 +34,13 @@ void GuidedFlight::setFollowed(const MovingTarget& target) {
     last_ = points.back();
   }
   ++version_;
-  active_ = false;
+  active_ = needs_fresh_start_ = false;
   has_no_way_ = false;
 }
 
 void GuidedFlight::forget() {
   followed_ = nullptr;
-  active_ = false;
+  active_ = needs_fresh_start_ = false;
   has_no_way_ = false;
 }
 
@@ -54,6 +54,7 @@ void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {
   if (answer.version != version_ || followed_ != &target) return;
   has_no_way_ = answer.state == GuideState::kNoWay;
   if (answer.state != GuideState::kGuided) {
+    if (active_) needs_fresh_start_ = false;
     active_ = false;
     return;
   }
@@ -150,8 +151,8 @@ void GuidedFlight::pose(const MovingTarget& target, double& progress, UavProblem
 
 void GuidedFlight::notePlan(const Vector3& end, const UavProblem& problem) {
   needs_fresh_start_ = false;
-  if (!active_) return;
-  const double asked = problem.targets[kHorizon].arc_length - progress_;
+  if (!active_ && !problem.corridor.active) return;
+  const double asked = problem.targets[kHorizon].arc_length - problem.progress;
   const double lacking = (problem.targets[kHorizon].p - end).norm();
   const LimitParameters& limits = problem.parameters->limits;
   const bool gets_on = lacking < std::max(kHeldUp * asked, kHeldUp * limits.pair_distance);

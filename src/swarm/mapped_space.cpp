@@ -13,13 +13,21 @@ constexpr double kLooked = 1.0;  // beyond uav_radius, for a clearance that is r
 }  // namespace
 
 void MappedSpace::findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem) {
+  builder_.buildAbout(requestFor(map, problem), plan, problem);
+}
+
+void MappedSpace::findCorridorAlongPath(const VoxelMap* map, UavProblem& problem) {
+  builder_.buildAlongPath(requestFor(map, problem), problem);
+}
+
+CorridorRequest MappedSpace::requestFor(const VoxelMap* map, const UavProblem& problem) const {
   const LimitParameters& limits = parameters_.limits;
   CorridorRequest request;
   request.map = map;
   request.distance = limits.uav_radius + limits.tracking_margin;
   request.margin = limits.tracking_margin;
   request.band = kBand * limits.max_speed * problem.dt + request.distance;
-  builder_.build(request, plan, problem);
+  return request;
 }
 
 double MappedSpace::clearance(const VoxelMap* map, const Trajectory& plan) const {

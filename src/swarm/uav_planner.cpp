@@ -226,11 +226,10 @@ void UavPlanner::keepJerkLimit(const KinematicState& start) {
 void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
   along_ = shifted_;
   along_active_.count = 0;
-  problem_.corridor.active = false;
+  mapped_.findCorridorAlongPath(check_.map, problem_);
   std::swap(problem_.bodies, no_bodies_);
   const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
   std::swap(problem_.bodies, no_bodies_);
-  mapped_.findCorridor(check_.map, along_, problem_);
   along_active_.count = 0;
   SqpResult other = sqp_.solve(problem_, along_, along_active_);
   const int iterations = result.iterations + alone.iterations + other.iterations;
@@ -239,6 +238,8 @@ void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
     plan_ = along_;
     active = along_active_;
     result = other;
+  } else {
+    mapped_.findCorridor(check_.map, shifted_, problem_);
   }
   result.iterations = iterations;
   result.qp_iterations = qp_iterations;

@@ -39,19 +39,29 @@ struct CorridorRequest {
   double band = 0.0;      ///< how far beyond the plan's control points is looked [m]
 };
 
-/// Makes the corridor of problem.corridor about `plan`, which the solver is to improve. A segment that leads through
-/// occupied space gets the free space about where the problem's target is then; where that is not free either, that of
-/// the segment before, so that the plan ends in front of what it cannot pass.
+/// Makes problem.corridor. A segment that leads through occupied space gets the free space of the one before, so that
+/// a plan ends in front of what it cannot pass.
 class CorridorBuilder {
  public:
-  void build(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem);
+  /// About `plan`, which the solver is to improve. Segments that lead through occupied space are looked for on the
+  /// problem's path first.
+  void buildAbout(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem);
+  /// About the problem's path, as the UAV can come along it: a plan that is held up behind something does not show the
+  /// way round it.
+  void buildAlongPath(const CorridorRequest& request, UavProblem& problem);
 
  private:
+  /// Segments along the path from the start on, with the target or as fast as the UAV can follow.
+  void findWay(const UavProblem& problem);
+  /// Takes the free space about one of the two, or the last one.
+  void choose(const CorridorRequest& request, const SegmentPoints& first, const SegmentPoints& second, int k,
+              UavProblem& problem);
   void assign(const CorridorRequest& request, const Vector3& start, int k, CorridorSegment& segment) const;
 
   PolyhedronSearch search_;
   FreePolyhedron polyhedron_;  ///< of the segment in work
   FreePolyhedron other_;
+  std::array<SegmentPoints, kHorizon> way_;
 };
 
 }  // namespace swarm_planner

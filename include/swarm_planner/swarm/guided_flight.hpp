@@ -28,7 +28,8 @@ class GuidedFlight {
 
   bool active() const { return active_; }
   /// A plan shifted from the cycle before does not lead along it: the guide is new, or the last plan did not get on.
-  bool needsFreshStart() const { return active_ && needs_fresh_start_; }
+  /// In a map that holds without a guide, too: a plan may be held up behind something that its path leads round.
+  bool needsFreshStart() const { return needs_fresh_start_; }
   /// The plan made for the pose of this cycle ends at `end` [m].
   void notePlan(const Vector3& end, const UavProblem& problem);
   /// Why the UAV is right to stand where it is, kNone if it is not because of what blocks its way.

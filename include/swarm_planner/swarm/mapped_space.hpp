@@ -15,10 +15,14 @@ class MappedSpace {
 
   /// Gives the problem the corridor about `plan`.
   void findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem);
+  /// Gives it that along its path.
+  void findCorridorAlongPath(const VoxelMap* map, UavProblem& problem);
   /// From the plan's knots to the nearest occupied voxel, less uav_radius [m]; infinite where none is within a metre.
   double clearance(const VoxelMap* map, const Trajectory& plan) const;
 
  private:
+  CorridorRequest requestFor(const VoxelMap* map, const UavProblem& problem) const;
+
   const Parameters& parameters_;
   CorridorBuilder builder_;
 };
