@@ -112,7 +112,7 @@ QpStatus GeneratedJointSolver::solve(const JointQp& qp, JointQpSolution& solutio
   for (std::size_t component = 0; component < qp.count; ++component) {
     m.members.clear();
     for (std::size_t i = 0; i < qp.count; ++i) {
-      if (components[i] != component) continue;
+      if (components[i] != component || qp.is_left[i]) continue;
       m.copy_of[i] = static_cast<int>(m.members.size());
       m.members.push_back(i);
     }

@@ -30,16 +30,20 @@ JointComponents findComponents(const JointQp& qp) {
   return components;
 }
 
-double JointQp::objective(const std::vector<Trajectory>& plans) const {
+double objective(const JointQp& qp, const std::vector<Trajectory>& plans, const JointComponents& components,
+                 std::size_t component) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += uavs[i]->objective(plans[i]);
-  for (const PairRow& row : pair_rows) {
-    const OutputGains& gains = uavs[row.first]->outputs[static_cast<std::size_t>(row.output)];
+  for (std::size_t i = 0; i < qp.count; ++i) {
+    if (components[i] == component && !qp.is_left[i]) sum += qp.uavs[i]->objective(plans[i]);
+  }
+  for (const PairRow& row : qp.pair_rows) {
+    if (components[row.first] != component) continue;
+    const OutputGains& gains = qp.uavs[row.first]->outputs[static_cast<std::size_t>(row.output)];
     const auto stage = static_cast<std::size_t>(row.stage);
     const Vector3 apart =
         outputValue(gains, plans[row.first].knots[stage]) - outputValue(gains, plans[row.second].knots[stage]);
     const double lacking = std::max(0.0, row.d - row.n.dot(apart));
-    const QpModel& model = uavs[row.first]->model;
+    const QpModel& model = qp.uavs[row.first]->model;
     sum += model.slack_linear * lacking + 0.5 * model.slack_quadratic * lacking * lacking;
   }
   return sum;

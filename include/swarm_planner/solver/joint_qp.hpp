@@ -36,12 +36,12 @@ struct ActivePairRows {
 /// The QPs of several UAVs as one, with rows for pairs of them. Always feasible since every row is soft.
 struct JointQp {
   std::size_t count = 0;                  ///< of UAVs in use
+  /// UAVs that are left as they are: the rest is the problem, and no pair row touches them.
+  std::array<bool, kMostJointUavs> is_left{};
   std::vector<std::unique_ptr<Qp>> uavs;  ///< kMostJointUavs; every model has the same penalty
   std::vector<PairRow> pair_rows;         ///< at most kMostPairRows
 
   JointQp();
-  /// Objective of plans, one for each UAV, with every row's slack at its best.
-  double objective(const std::vector<Trajectory>& plans) const;
 };
 
 /// For each UAV the number of its component: UAVs that pair rows connect, directly or by others. Numbers begin at 0.
@@ -49,6 +49,10 @@ using JointComponents = std::array<std::size_t, kMostJointUavs>;
 /// Gives UAVs of two components the same number.
 void join(std::size_t first, std::size_t second, std::size_t count, JointComponents& components);
 JointComponents findComponents(const JointQp& qp);
+
+/// Objective of one component's plans, with every row's slack at its best. `plans`: one for each UAV.
+double objective(const JointQp& qp, const std::vector<Trajectory>& plans, const JointComponents& components,
+                 std::size_t component);
 
 struct JointQpSolution {
   QpStatus status = QpStatus::kNoAnswer;
@@ -63,7 +67,8 @@ struct JointQpSolution {
 class JointQpSolver {
  public:
   virtual ~JointQpSolver() = default;
-  /// The active rows as they come in are taken for a guess, which changes the time, not the answer.
+  /// The active rows as they come in are taken for a guess, which changes the time, not the answer. What the solution
+  /// says of UAVs that are left stays as it is.
   virtual QpStatus solve(const JointQp& qp, JointQpSolution& solution) = 0;
 };
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -18,13 +19,15 @@ struct JointPlans {
 };
 
 /// Sequential quadratic programming on JointProblem, as SqpSolver on UavProblem: one QP for all UAVs and one merit, in
-/// which a pair's violation counts once. UAVs that cannot meet on the way do not shorten each other's steps.
+/// which a pair's violation counts once. UAVs that cannot meet on the way do not shorten each other's steps, nor wait for
+/// each other: each such component is done when it has no more to gain.
 class JointSqpSolver {
  public:
   /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
   explicit JointSqpSolver(std::unique_ptr<JointQpSolver> qp_solver);
 
-  /// At most kMostJointUavs UAVs. The results are those of the UAVs, with the numbers of the run in each.
+  /// At most kMostJointUavs UAVs. The results are those of the UAVs: with the changes of the active set of all in each,
+  /// and the merit of all.
   const std::vector<SqpResult>& solve(const JointProblem& problem, JointPlans& plans);
 
   /// Source of a pair's rows in the guess; the same from cycle to cycle if the pair's UAVs are.
@@ -34,15 +37,20 @@ class JointSqpSolver {
 
  private:
   QpStatus solveQp(const JointProblem& problem, const std::vector<Trajectory>& plans, int iteration);
+  /// Leaves UAVs that are done, but for those that rows connect with others that are not.
+  void leaveThoseDone(const JointProblem& problem);
   void findPairPlanes(const JointProblem& problem, const std::vector<Trajectory>& plans, double band);
   void addPairRows(const JointProblem& problem);
   void predictAll(const std::vector<Trajectory>& plans);
   JointComponents findMovingComponents(const JointProblem& problem, const std::vector<Trajectory>& answer);
-  /// By how much the candidate decreases the merit of one component.
-  double gainOf(const JointProblem& problem, const JointComponents& components, std::size_t component) const;
-  /// Moves the plans towards the QP's answer as far as the merit decreases, each component by a length of its own.
-  /// Returns how far any knot moved [m].
-  double acceptStep(const JointProblem& problem, const std::vector<Trajectory>& answer, std::vector<Trajectory>& plans);
+  static double meritOf(const JointMerit& merit, const JointProblem& problem, const JointComponents& components,
+                        std::size_t component);
+  /// Moves candidate_ from the plans towards the QP's answer as far as the merit decreases, each component by a length
+  /// of its own.
+  void findStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& plans);
+  /// Takes the step, and finds out which components are done.
+  void takeStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& answer,
+                std::vector<Trajectory>& plans);
 
   std::unique_ptr<JointQpSolver> qp_solver_;
   JointQp qp_;
@@ -53,6 +61,8 @@ class JointSqpSolver {
   std::vector<PredictedMotion> motions_;  ///< of the plans looked at
   std::vector<Box> areas_;                ///< between a plan and the QP's answer [m]
   JointMerit merit_, candidate_merit_;
+  std::array<bool, kMostJointUavs> is_done_{};
+  std::vector<ActiveRow> kept_rows_;  ///< of pairs that are left
   std::vector<SqpResult> results_;
 };
 
