@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "generated_qp.hpp"
 #include "joint_qp.h"
@@ -61,8 +62,7 @@ bool meansTheSame(const ActiveRow& guess, const PairRow& row) {
 }  // namespace
 
 struct GeneratedJointSolver::Memory {
-  Memory(const std::shared_ptr<const GeneratedTables>& single_tables, int changes)
-      : most_changes(changes), single(single_tables, changes) {}
+  Memory(std::unique_ptr<QpSolver> of_one, int changes) : most_changes(changes), single(std::move(of_one)) {}
 
   int most_changes;  ///< per UAV
 
@@ -74,14 +74,14 @@ struct GeneratedJointSolver::Memory {
   std::vector<ActiveRow> guessed_pairs;
   std::array<const joint_qp_tables*, kMostJointUavs> tables{};  ///< of each copy
   joint_qp_solver solver;
-  GeneratedSolver single;  ///< of UAVs that no row couples
+  std::unique_ptr<QpSolver> single;  ///< of UAVs that no row couples
   QpSolution alone;
   std::array<std::vector<ActiveRow>, kMostJointUavs> row_of_slot;  ///< what each row is, without multiplier
 };
 
-GeneratedJointSolver::GeneratedJointSolver(const std::vector<QpModel>& models,
-                                           const std::shared_ptr<const GeneratedTables>& single, int most_changes)
-    : memory_(new Memory(single, most_changes)) {
+GeneratedJointSolver::GeneratedJointSolver(const std::vector<QpModel>& models, std::unique_ptr<QpSolver> single,
+                                           int most_changes)
+    : memory_(new Memory(std::move(single), most_changes)) {
   memory_->models = models;
   for (const QpModel& model : models) {
     const auto parameters = generatedParameters<joint_qp_parameters>(model);
@@ -127,7 +127,7 @@ QpStatus GeneratedJointSolver::solveAlone(const JointQp& qp, JointQpSolution& so
   const std::size_t i = memory_->members.front();
   QpSolution& alone = memory_->alone;
   alone.active = solution.active[i];
-  const QpStatus status = memory_->single.solve(*qp.uavs[i], alone);
+  const QpStatus status = memory_->single->solve(*qp.uavs[i], alone);
   solution.iterations += alone.iterations;
   solution.max_slack = std::max(solution.max_slack, alone.max_slack);
   solution.jerks[i] = alone.jerks;

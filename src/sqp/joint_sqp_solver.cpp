@@ -188,14 +188,14 @@ void JointSqpSolver::findStep(const JointProblem& problem, const JointComponents
                               const std::vector<Trajectory>& plans) {
   const std::size_t count = plans.size();
   std::array<bool, kMostJointUavs> decided = qp_.is_left;
+  for (std::size_t i = 0; i < count; ++i) moves_[i] = !qp_.is_left[i];
   candidate_ = plans;
   for (const double length : kStepLengths) {
     for (std::size_t i = 0; i < count; ++i) {
       if (decided[i]) continue;
       stepTowards(solution_->jerks[i], length, problem.uavs[i]->start, plans[i], candidate_[i]);
     }
-    predictAll(candidate_);
-    findJointMerit(problem, candidate_, motions_, planes_, candidate_merit_);
+    judgeCandidate(problem);
     bool all = true;
     for (std::size_t i = 0; i < count; ++i) {
       decided[i] = decided[i] || meritOf(candidate_merit_, problem, components, components[i]) <
@@ -205,15 +205,29 @@ void JointSqpSolver::findStep(const JointProblem& problem, const JointComponents
     if (all) break;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (!decided[i]) candidate_[i] = plans[i];
+    moves_[i] = moves_[i] && decided[i];
+    if (!moves_[i]) candidate_[i] = plans[i];
+  }
+}
+
+void JointSqpSolver::judgeCandidate(const JointProblem& problem) {
+  predictAll(candidate_);
+  findJointMerit(problem, candidate_, motions_, planes_, candidate_merit_);
+  for (std::size_t i = 0; i < problem.uavs.size(); ++i) {
+    if (moves_[i]) continue;
+    candidate_merit_.of_uavs[i] = merit_.of_uavs[i];
+    candidate_merit_.largest_violation[i] = merit_.largest_violation[i];
+  }
+  for (std::size_t i = 0; i < problem.pairs.size(); ++i) {
+    const UavPair& pair = problem.pairs[i];
+    if (!moves_[pair.first] && !moves_[pair.second]) candidate_merit_.of_pairs[i] = merit_.of_pairs[i];
   }
 }
 
 void JointSqpSolver::takeStep(const JointProblem& problem, const JointComponents& components,
                               const std::vector<Trajectory>& answer, std::vector<Trajectory>& plans) {
   const std::size_t count = plans.size();
-  predictAll(candidate_);
-  findJointMerit(problem, candidate_, motions_, planes_, candidate_merit_);
+  judgeCandidate(problem);
   for (std::size_t component = 0; component < count; ++component) {
     double wanted = 0.0, moved = 0.0;
     int iterations = 0;

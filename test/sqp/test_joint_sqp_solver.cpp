@@ -63,7 +63,8 @@ class Flight {
 
 class JointSqp : public ::testing::Test {
  protected:
-  JointSqpSolver solver_{std::make_unique<GeneratedJointSolver>(models(), std::make_shared<GeneratedTables>(models()))};
+  JointSqpSolver solver_{std::make_unique<GeneratedJointSolver>(
+      models(), std::make_unique<GeneratedSolver>(std::make_shared<GeneratedTables>(models())))};
 };
 
 TEST_F(JointSqp, UavsThatDoNotMeetGetThePlansThatEachFindsAlone) {

@@ -4,22 +4,21 @@
 #include <memory>
 #include <vector>
 
-#include "swarm_planner/solver/generated_solver.hpp"
 #include "swarm_planner/solver/joint_qp.hpp"
 
 namespace swarm_planner {
 
 /// Solves JointQp with the solver generated from config/solver/joint_qp.yaml: a dual active set on one UAV's tables,
 /// with the widest vector instructions of this machine. UAVs that no pair row connects are solved apart, which is the
-/// same problem and takes less, and single ones by the solver of one UAV, which has a second method. Where UAVs that
+/// same problem and takes less, and single ones by a solver of one UAV. Where UAVs that
 /// are connected meet a cap there is no answer.
 class GeneratedJointSolver final : public JointQpSolver {
  public:
   /// For QPs of these models, each UAV's any of them. Throws std::invalid_argument if a model's weights do not make a
   /// strictly convex problem.
-  /// `single`: of the same models. `most_changes`: per UAV, see GeneratedSolver.
-  GeneratedJointSolver(const std::vector<QpModel>& models, const std::shared_ptr<const GeneratedTables>& single,
-                       int most_changes = 0);
+  /// `single`: for the same models. `most_changes`: of the active set, per UAV of those that rows connect, after which
+  /// the answer counts as it is (QpStatus::kIterationLimit); 0: none.
+  GeneratedJointSolver(const std::vector<QpModel>& models, std::unique_ptr<QpSolver> single, int most_changes = 0);
   ~GeneratedJointSolver() override;
 
   QpStatus solve(const JointQp& qp, JointQpSolution& solution) override;

@@ -48,6 +48,8 @@ class JointSqpSolver {
   /// Moves candidate_ from the plans towards the QP's answer as far as the merit decreases, each component by a length
   /// of its own.
   void findStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& plans);
+  /// The merit of candidate_. Of a plan that stays it is what it was: half-spaces of a newer QP need not suit it.
+  void judgeCandidate(const JointProblem& problem);
   /// Takes the step, and finds out which components are done.
   void takeStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& answer,
                 std::vector<Trajectory>& plans);
@@ -62,6 +64,7 @@ class JointSqpSolver {
   std::vector<Box> areas_;                ///< between a plan and the QP's answer [m]
   JointMerit merit_, candidate_merit_;
   std::array<bool, kMostJointUavs> is_done_{};
+  std::array<bool, kMostJointUavs> moves_{};  ///< whether candidate_ is not the plan that it comes from
   std::vector<ActiveRow> kept_rows_;  ///< of pairs that are left
   std::vector<SqpResult> results_;
 };
