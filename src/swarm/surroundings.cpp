@@ -120,6 +120,8 @@ Box Surroundings::reach(const KinematicState& start) const {
   return {start.p - extent, start.p + extent};
 }
 
+UavPair Surroundings::pairDistances() const { return {0, 1, horizontal_, vertical_, parameters_.limits.pair_margin}; }
+
 void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
   problem.bodies.clear();
   if (!parameters_.limits.avoidance) return;

@@ -7,6 +7,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
+#include "swarm_planner/problem/joint_problem.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/swarm/neighbour_lists.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
@@ -48,6 +49,13 @@ class Surroundings {
   /// Whether others were told of the place: only there may a motion of the UAV go that is new in this cycle.
   bool isWithinArea(std::size_t uav, const CommittedMotion& motion) const;
 
+  /// Which UAV's newest motion a body that was collected is, if it is one.
+  static std::optional<std::size_t> uavOf(const MovingBody& body) {
+    if (!body.isUav()) return {};
+    return (body.identity() - 1) / 2;
+  }
+  /// The distances of two UAVs whose motions are certain; `first` and `second` are left to the caller.
+  UavPair pairDistances() const;
   /// Fills problem.bodies with what `uav` can reach from problem.start within the horizon.
   void collect(std::size_t uav, UavProblem& problem) const;
   /// Lists all that a motion of `uav` has to keep clear of, for the check.
