@@ -15,29 +15,31 @@ JointGroups::JointGroups(std::size_t uavs) : partners_(uavs), parent_(uavs), siz
   neighbours_.reserve(uavs);
 }
 
-void JointGroups::buildOne(const std::vector<bool>& may_be_grouped, const Surroundings& surroundings) {
+void JointGroups::buildOne(const std::vector<Candidate>& candidates, const Surroundings& surroundings) {
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  const auto first = std::find(may_be_grouped.begin(), may_be_grouped.end(), true);
-  for (std::size_t i = 0; i < may_be_grouped.size(); ++i) {
-    if (may_be_grouped[i]) parent_[i] = static_cast<std::size_t>(first - may_be_grouped.begin());
+  const auto first = std::find_if(candidates.begin(), candidates.end(),
+                                  [](const Candidate& candidate) { return candidate.may_be_grouped; });
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].may_be_grouped) parent_[i] = static_cast<std::size_t>(first - candidates.begin());
   }
   list(surroundings);
 }
 
-void JointGroups::build(const std::vector<bool>& may_be_grouped, const Surroundings& surroundings, ThreadTeam& team) {
+void JointGroups::build(const std::vector<Candidate>& candidates, const Surroundings& surroundings, ThreadTeam& team) {
   team.forEach(0, partners_.size(),
-               [&](std::size_t i, std::size_t) { findPartners(i, may_be_grouped, surroundings); });
+               [&](std::size_t i, std::size_t) { findPartners(i, candidates, surroundings); });
   joinPairs();
   list(surroundings);
 }
 
-void JointGroups::findPartners(std::size_t uav, const std::vector<bool>& may_be_grouped,
+void JointGroups::findPartners(std::size_t uav, const std::vector<Candidate>& candidates,
                                const Surroundings& surroundings) {
   Partners& partners = partners_[uav];
   partners.count = 0;
-  if (!may_be_grouped[uav]) return;
+  if (!candidates[uav].may_be_grouped) return;
   for (const std::uint32_t other : surroundings.neighbours().of(uav)) {
-    if (!may_be_grouped[other]) continue;
+    if (!candidates[other].may_be_grouped) continue;
+    if (surroundings.pairGauge(candidates[uav].end - candidates[other].end) < 1.0) continue;
     const double gauge = surroundings.leastPairGauge(uav, other, kStrong);
     if (!(gauge < kStrong)) continue;
     const auto begin = partners.pairs.begin();

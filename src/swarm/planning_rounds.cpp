@@ -32,7 +32,7 @@ PlanningRounds::PlanningRounds(const Parameters& parameters, const std::optional
   if (mode == PlanningMode::kIterative) return;
   groups_.emplace(uavs);
   guesses_.resize(uavs);
-  may_be_grouped_.resize(uavs);
+  candidates_.resize(uavs);
   // One group takes one thread.
   const std::size_t planners = mode == PlanningMode::kJoint ? 1 : team.size();
   for (std::size_t member = 0; member < planners; ++member) {
@@ -62,11 +62,14 @@ void PlanningRounds::planOneByOne(const Cycle& cycle) {
 }
 
 void PlanningRounds::planByGroups(const Cycle& cycle) {
-  for (std::size_t i = 0; i < cycle.turns.size(); ++i) may_be_grouped_[i] = cycle.turns[i] == Turn::kPlan;
+  for (std::size_t i = 0; i < cycle.turns.size(); ++i) {
+    const ReferencePath& path = cycle.records[i].reference.path;
+    candidates_[i] = {cycle.turns[i] == Turn::kPlan, path.at(path.length()).position};
+  }
   if (mode_ == PlanningMode::kJoint) {
-    groups_->buildOne(may_be_grouped_, cycle.surroundings);
+    groups_->buildOne(candidates_, cycle.surroundings);
   } else {
-    groups_->build(may_be_grouped_, cycle.surroundings, team_);
+    groups_->build(candidates_, cycle.surroundings, team_);
   }
   order_.build(groups_->neighbours(), groups_->groupOf(first_));
   std::atomic<bool> planned{false};

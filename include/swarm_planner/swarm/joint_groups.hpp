@@ -20,13 +20,20 @@ class JointGroups {
   /// Memory for `uavs` UAVs.
   explicit JointGroups(std::size_t uavs);
 
+  /// What is to be known of a UAV besides where it is.
+  struct Candidate {
+    bool may_be_grouped = false;
+    Vector3 end = Vector3::Zero();  ///< of its reference [m]
+  };
+
   /// One group of all UAVs that may be grouped, which are no more than fit.
-  void buildOne(const std::vector<bool>& may_be_grouped, const Surroundings& surroundings);
+  void buildOne(const std::vector<Candidate>& candidates, const Surroundings& surroundings);
 
   /// UAVs interact strongly if their motions come closer within the horizon than kStrong times the distance that they
   /// have to keep. Pairs that do are joined, the closest first, as long as the group that comes out is not too large;
-  /// of one UAV no more pairs count than fit into a group, its closest.
-  void build(const std::vector<bool>& may_be_grouped, const Surroundings& surroundings, ThreadTeam& team);
+  /// of one UAV no more pairs count than fit into a group, its closest. Pairs whose ends leave no room for both take
+  /// turns: at once they would meet half-way, and neither would arrive.
+  void build(const std::vector<Candidate>& candidates, const Surroundings& surroundings, ThreadTeam& team);
 
   std::size_t count() const { return begin_.size() - 1; }
   /// The UAVs of a group: begin(group)[0] .. begin(group)[size(group) - 1], ascending.
@@ -49,7 +56,7 @@ class JointGroups {
     std::size_t count = 0;
   };
 
-  void findPartners(std::size_t uav, const std::vector<bool>& may_be_grouped, const Surroundings& surroundings);
+  void findPartners(std::size_t uav, const std::vector<Candidate>& candidates, const Surroundings& surroundings);
   void joinPairs();
   std::size_t rootOf(std::size_t uav);
   /// Lists the groups, whose members have one root.

@@ -58,7 +58,7 @@ class PlanningRounds {
   std::optional<JointGroups> groups_;
   std::vector<JointPlanner> joint_planners_;  ///< one per member of the team
   std::vector<JointGuess> guesses_;           ///< of groups, by their first UAVs
-  std::vector<bool> may_be_grouped_;          ///< each UAV
+  std::vector<JointGroups::Candidate> candidates_;
 };
 
 }  // namespace swarm_planner
