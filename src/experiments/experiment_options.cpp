@@ -245,9 +245,9 @@ void Parser::leaveOut(const std::string& names) {
 
 void Parser::readStudyOption(const std::string& option) {
   static const std::vector<std::string> kNotYet = {"--as-paper"};
-  if (option == "--joint") {
+  if (option == "--joint" || option == "--groups") {
     if (options_.command == ExperimentCommand::kCompare) throw OptionError(option + ": does not go with this command");
-    options_.mode = PlanningMode::kJoint;
+    options_.mode = option == "--joint" ? PlanningMode::kJoint : PlanningMode::kGroups;
   } else if (option == "--uavs") {
     if (default_uavs_.empty()) throw OptionError(option + ": does not go with this command");
     for (const std::string& count : values(option)) {
@@ -286,6 +286,7 @@ void Parser::check() {
     return std::find(seen_.begin(), seen_.end(), option) != seen_.end();
   };
   if (given("--seed") && given("--seeds")) throw OptionError("--seed and --seeds: give one of them");
+  if (given("--joint") && given("--groups")) throw OptionError("--joint and --groups: give one of them");
   if (given("--scenarios") && given("--seeds")) throw OptionError("--scenarios and --seeds: give one of them");
   if (options_.command == ExperimentCommand::kFly) {
     if (options_.scenario_files.empty()) throw OptionError("fly: no scenario file given");
@@ -348,7 +349,8 @@ options:
                          guide      no ways round what blocks references are searched
                          avoidance  plans ignore obstacles and other UAVs
                          right_of_way  no UAV gives way where several block each other
-  --joint              plan by Problem 1, at most 8 UAVs
+  --joint              plan by Problem 1, all UAVs at once, at most 8
+  --groups             plan at once for groups of up to 8 UAVs that interact strongly
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

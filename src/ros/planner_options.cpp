@@ -21,9 +21,9 @@ TwistFrame twistFrame(const std::string& name, Faults& faults) {
 }
 
 PlanningMode planningMode(const std::string& name, Faults& faults) {
-  if (name == "joint") return PlanningMode::kJoint;
-  if (name != "iterative") faults.add("parameters", "mode", "is '" + name + "', expected iterative or joint");
-  return PlanningMode::kIterative;
+  const std::optional<PlanningMode> mode = planningModeFrom(name);
+  if (!mode) faults.add("parameters", "mode", "is '" + name + "', expected iterative, joint or groups");
+  return mode.value_or(PlanningMode::kIterative);
 }
 
 SetpointDelivery setpointDelivery(const std::string& name, Faults& faults) {
@@ -39,7 +39,8 @@ const std::vector<NodeParameter>& plannerNodeTable() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static const std::vector<NodeParameter> table = {
       {"scenario", "path of the scenario file", std::string(), true},
-      {"mode", "how plans are made: iterative, UAV by UAV, or joint, at once for a small swarm",
+      {"mode", "how plans are made: iterative, UAV by UAV, joint, at once for a small swarm, or groups, at once for "
+               "those that interact strongly",
        std::string("iterative")},
       {"odometry_topic", "odometry of a UAV, {uav} stands for its name", std::string(kDefaultOdometryTopic)},
       {"trajectory_topic", "setpoints of a UAV, {uav} stands for its name", std::string(kDefaultTrajectoryTopic)},

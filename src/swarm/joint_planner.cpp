@@ -62,17 +62,18 @@ void JointPlanner::plan(const std::size_t* group, std::size_t count, double epoc
   takeGuess(epoch, guess);
   solve(records);
   storeGuess(epoch, guess);
-  const bool agreed = results_.front().solved && agree(epoch, records, surroundings);
+  const bool is_solved = results_.front().solved;
+  const bool agreed = is_solved && agree(epoch, records, surroundings);
   for (std::size_t m = 0; m < members_.size(); ++m) {
     const std::size_t i = members_[m];
     records[i].active = plans_.active[m];
-    if (agreed) {
+    if (agreed || (is_solved && planners_[m].passes(i, epoch, records[i], surroundings))) {
       planners_[m].commitDraft(i, epoch, records[i], surroundings, results_[m], reports[i]);
     } else if (m > 0 && time.isSpent()) {
       planners_[m].goOn(i, epoch, records[i], surroundings, reports[i]);
       reportTask(records[i].task, reports[i]);
     } else {
-      planners_[m].complete(i, epoch, records[i], surroundings, results_[m], reports[i]);
+      planners_[m].planAnew(i, epoch, records[i], surroundings, results_[m], reports[i]);
     }
   }
   const double share = stopwatch.elapsed() / static_cast<double>(members_.size());

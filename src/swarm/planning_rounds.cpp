@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include "swarm_planner/swarm/planning_rounds.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 
@@ -17,15 +18,9 @@ struct PlanningRounds::Cycle {
   std::vector<UavReport>& reports;
 };
 
-std::optional<std::string> planningModeFault(PlanningMode mode, std::size_t uavs) {
-  if (mode != PlanningMode::kJoint || uavs <= kMostJointUavs) return {};
-  return "the joint problem is solved for at most " + std::to_string(kMostJointUavs) + " UAVs, the scenario has " +
-         std::to_string(uavs);
-}
-
 PlanningRounds::PlanningRounds(const Parameters& parameters, const std::optional<Workspace>& workspace,
                                PlanningMode mode, std::size_t uavs, std::size_t max_obstacles, ThreadTeam& team)
-    : team_(team) {
+    : team_(team), mode_(mode) {
   if (const auto fault = planningModeFault(mode, uavs)) throw std::invalid_argument(*fault);
   order_.reserve(uavs);
   const QpModels models = makeQpModels(parameters);
@@ -34,15 +29,22 @@ PlanningRounds::PlanningRounds(const Parameters& parameters, const std::optional
   for (std::size_t member = 0; member < team.size(); ++member) {
     planners_.emplace_back(parameters, workspace, tables, bodies);
   }
-  if (mode == PlanningMode::kJoint) joint_.emplace(parameters, workspace, tables, bodies, uavs);
-  group_.reserve(kMostJointUavs);
+  if (mode == PlanningMode::kIterative) return;
+  groups_.emplace(uavs);
+  guesses_.resize(uavs);
+  candidates_.resize(uavs);
+  // One group takes one thread.
+  const std::size_t planners = mode == PlanningMode::kJoint ? 1 : team.size();
+  for (std::size_t member = 0; member < planners; ++member) {
+    joint_planners_.emplace_back(parameters, workspace, tables, bodies, uavs);
+  }
 }
 
 bool PlanningRounds::plan(double epoch, const PlanningTime& time, const std::vector<Turn>& turns,
                           std::vector<UavRecord>& records, Surroundings& surroundings,
                           std::vector<UavReport>& reports) {
   const Cycle cycle{epoch, time, turns, records, surroundings, reports};
-  joint_ ? planJointly(cycle) : planOneByOne(cycle);
+  mode_ == PlanningMode::kIterative ? planOneByOne(cycle) : planByGroups(cycle);
   return noteOverrun(reports);
 }
 
@@ -59,14 +61,33 @@ void PlanningRounds::planOneByOne(const Cycle& cycle) {
   }
 }
 
-void PlanningRounds::planJointly(const Cycle& cycle) {
-  group_.clear();
+void PlanningRounds::planByGroups(const Cycle& cycle) {
   for (std::size_t i = 0; i < cycle.turns.size(); ++i) {
-    if (cycle.turns[i] == Turn::kPlan) group_.push_back(i);
-    if (cycle.turns[i] == Turn::kKeepClear) takeTurn(i, true, planners_.front(), cycle);
+    const ReferencePath& path = cycle.records[i].reference.path;
+    candidates_[i] = {cycle.turns[i] == Turn::kPlan, path.at(path.length()).position};
   }
-  joint_->plan(group_.data(), group_.size(), cycle.epoch, cycle.time, guess_, cycle.records, cycle.surroundings,
-               cycle.reports);
+  if (mode_ == PlanningMode::kJoint) {
+    groups_->buildOne(candidates_, cycle.surroundings);
+  } else {
+    groups_->build(candidates_, cycle.surroundings, team_);
+  }
+  order_.build(groups_->neighbours(), groups_->groupOf(first_));
+  std::atomic<bool> planned{false};
+  for (std::size_t round = 0; round < order_.rounds(); ++round) {
+    team_.forEach(order_.roundBegin(round), order_.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
+      const std::size_t group = order_.uav(position);
+      const std::size_t* uavs = groups_->begin(group);
+      const bool may_skip = cycle.turns[uavs[0]] == Turn::kPlan && planned.exchange(true);
+      if (groups_->size(group) > 1 && !(may_skip && cycle.time.isSpent())) {
+        // Of one group it does not matter which member has the planner.
+        JointPlanner& planner = joint_planners_[std::min(member, joint_planners_.size() - 1)];
+        planner.plan(uavs, groups_->size(group), cycle.epoch, cycle.time, guesses_[uavs[0]], cycle.records,
+                     cycle.surroundings, cycle.reports);
+        return;
+      }
+      for (std::size_t i = 0; i < groups_->size(group); ++i) takeTurn(uavs[i], may_skip, planners_[member], cycle);
+    });
+  }
 }
 
 void PlanningRounds::takeTurn(std::size_t i, bool may_skip, UavPlanner& planner, const Cycle& cycle) {

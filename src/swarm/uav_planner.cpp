@@ -47,7 +47,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
   if (begin(uav, epoch, record, surroundings, report)) {
-    report.reason = flyOn(uav, epoch, record, surroundings, nullptr, report);
+    report.reason = flyOn(uav, epoch, record, surroundings, report);
     conclude(uav, epoch, record, surroundings, report);
   }
   report.solve_time = stopwatch.elapsed();
@@ -113,11 +113,12 @@ void UavPlanner::commitDraft(std::size_t uav, double epoch, UavRecord& record, S
   conclude(uav, epoch, record, surroundings, report);
 }
 
-void UavPlanner::complete(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+void UavPlanner::planAnew(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
                           const SqpResult& result, UavReport& report) {
+  report.sqp_iterations += result.iterations;
+  report.qp_iterations += result.qp_iterations;
   survey(uav, epoch, record, surroundings);
-  surroundings.collect(uav, problem_);
-  report.reason = flyOn(uav, epoch, record, surroundings, result.solved ? &result : nullptr, report);
+  report.reason = flyOn(uav, epoch, record, surroundings, report);
   conclude(uav, epoch, record, surroundings, report);
 }
 
@@ -155,11 +156,10 @@ void UavPlanner::setWorkspace(const UavRecord& record) {
 }
 
 Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
-                         const SqpResult* joint, UavReport& report) {
+                         UavReport& report) {
   const KinematicState committed = record.motions.flown().at(epoch);
   record.task.is_quickest_stop = false;
-  CheckVerdict verdict = joint != nullptr ? decide(uav, record, surroundings, *joint, report)
-                                          : propose(uav, epoch, record, surroundings, report);
+  CheckVerdict verdict = propose(uav, epoch, record, surroundings, report);
   // A start that tracking has moved too close, or measured there: the motion itself is still safe to go on from.
   const bool compensated = parameters_.limits.latency_compensation;
   if (!verdict.accepted() && record.planned && compensated && areApart(record.start, committed)) {

@@ -25,7 +25,7 @@ struct JointGuess {
 
 /// Plans for several UAVs as one problem. What comes out is checked as any plan: if every one passes against all
 /// others' new and old ones, all are committed. Otherwise they are checked one after the other against what is
-/// committed, and fall back as ever. Where the joint problem has no answer, UAVs are planned for one by one.
+/// committed by then, and UAVs whose plans do not pass, or all where there is no answer, are planned for one by one.
 /// Holds the memory that this takes, so that every thread needs one of its own.
 class JointPlanner {
  public:

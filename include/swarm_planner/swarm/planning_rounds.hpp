@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "swarm_planner/swarm/joint_groups.hpp"
 #include "swarm_planner/swarm/joint_planner.hpp"
 #include "swarm_planner/swarm/planning_mode.hpp"
 #include "swarm_planner/swarm/planning_time.hpp"
@@ -25,8 +26,8 @@ enum class Turn : std::uint8_t {
   kKeepClear,  ///< it is not seen, but flies what was planned for it
 };
 
-/// Gives every UAV its turn in a cycle: one after the other, or those that are planned for all at once. What cannot
-/// meet takes turns at the same time, with the same result for any number of threads.
+/// Gives every UAV its turn in a cycle: one after the other, or groups of them at once. What cannot meet takes turns at
+/// the same time, with the same result for any number of threads.
 class PlanningRounds {
  public:
   /// As UavPlanner's. Throws std::invalid_argument with planningModeFault() for too many UAVs. `team` must outlive
@@ -42,18 +43,22 @@ class PlanningRounds {
   struct Cycle;
 
   void planOneByOne(const Cycle& cycle);
-  void planJointly(const Cycle& cycle);
+  void planByGroups(const Cycle& cycle);
   /// `may_skip`: somebody has made progress, whatever the budget.
   static void takeTurn(std::size_t uav, bool may_skip, UavPlanner& planner, const Cycle& cycle);
   bool noteOverrun(const std::vector<UavReport>& reports);
 
   ThreadTeam& team_;
   SolveOrder order_;
-  std::vector<UavPlanner> planners_;   ///< one per member of the team
-  std::optional<JointPlanner> joint_;  ///< of Problem 1
-  JointGuess guess_;
-  std::vector<std::size_t> group_;  ///< UAVs that are planned for at once
-  std::size_t first_ = 0;           ///< the UAV whose turn comes first
+  PlanningMode mode_;
+  std::vector<UavPlanner> planners_;  ///< one per member of the team
+  std::size_t first_ = 0;             ///< the UAV whose turn comes first
+
+  // Of modes that plan for several UAVs at once.
+  std::optional<JointGroups> groups_;
+  std::vector<JointPlanner> joint_planners_;  ///< one per member of the team
+  std::vector<JointGuess> guesses_;           ///< of groups, by their first UAVs
+  std::vector<JointGroups::Candidate> candidates_;
 };
 
 }  // namespace swarm_planner

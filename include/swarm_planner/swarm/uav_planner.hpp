@@ -56,8 +56,8 @@ class UavPlanner {
   /// Commits the draft, which has passed.
   void commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
                    const SqpResult& result, UavReport& report);
-  /// Goes on from the draft as plan() does from its own solution; from a solution of its own if `result` is none.
-  void complete(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, const SqpResult& result,
+  /// Plans as plan() does instead of flying the draft, which has not passed. `result`: in vain, but to be reported.
+  void planAnew(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, const SqpResult& result,
                 UavReport& report);
 
  private:
@@ -72,9 +72,8 @@ class UavPlanner {
                const Surroundings& surroundings, UavReport& report);
   /// Tells the surroundings and the operator what the UAV does.
   void conclude(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
-  /// A new plan, or what flies without one; the reason why it does. `joint`: how the plan in work was found, if it was.
-  Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
-               const SqpResult* joint, UavReport& report);
+  /// A new plan, or what flies without one; the reason why it does.
+  Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings, UavReport& report);
   /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
   /// if it is not, or there is none: a plan is needed then.
   bool rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings);
