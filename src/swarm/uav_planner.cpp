@@ -302,12 +302,8 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
   const bool gives_way = report.reason == Reason::kGivesWayToObstacle;
-  if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
-  if (on_new_plan && record.following.isNotFollowing()) report.reason = Reason::kNotFollowing;
-  if (on_new_plan && record.off_plan) {
-    report.reason = Reason::kOffPlan;
-    report.deviation = record.off_plan_distance;
-  }
+  if (on_new_plan) report.reason = record.reasonOff(parameters_);
+  if (report.reason == Reason::kOffPlan) report.deviation = record.off_plan_distance;
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTraffic(record.traffic, report);
   const bool is_slow = record.start.v.norm() < kStanding * parameters_.limits.max_speed;
