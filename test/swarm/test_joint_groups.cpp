@@ -98,7 +98,7 @@ TEST(JointGroups, CrowdsBecomeGroupsThatCanBeSolvedForAnyNumberOfThreads) {
 Mission swap(int uavs, double radius, int threads) {
   std::vector<Vector3> starts, ends;
   for (int i = 0; i < uavs; ++i) {
-    const double angle = 2.0 * M_PI * i / uavs + 0.003 * i * i;
+    const double angle = 2.0 * M_PI * i / uavs + 0.002 * i * i;
     starts.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 10.0);
     ends.emplace_back(-starts.back().x(), -starts.back().y(), 10.0);
   }
