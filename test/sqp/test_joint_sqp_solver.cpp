@@ -97,8 +97,8 @@ TEST_F(JointSqp, AUavOfItsOwnGetsThePlanThatItFindsAloneToTheBit) {
     Flight flight;
     flight.add(Vector3(0, 0, 10), Vector3(60, 0, 10), 4.0);
     for (int i = 0; i < 6; ++i) {
-      flight.uav(0).addObstacle(Superellipsoid(i, random.vector(-5.0, 5.0) + Vector3(9, 0, 10),
-                                               random.vector(0.5, 2.5), Vector3(8, 8, 8), 0.0, Vector3::Zero()));
+      flight.uav(0).addObstacle(Superellipsoid(i, random.vector(-5.0, 5.0) + Vector3(9, 0, 10), random.vector(0.5, 2.5),
+                                               Vector3(8, 8, 8), 0.0, Vector3::Zero()));
     }
     const UavProblem& problem = *flight.problem.uavs[0];
     flight.plans.plans[0] = wanderingPlan(random, problem.start, 4.0, problem.epoch, problem.dt);
