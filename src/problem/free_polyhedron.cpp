@@ -125,6 +125,11 @@ bool PolyhedronSearch::expand(const Block& block) {
   for (int z = range.first[2]; z <= range.last[2]; ++z) {
     for (int y = range.first[1]; y <= range.last[1]; ++y) {
       const std::uint32_t row = block.chunk->surface(y, z);
+      if (row == 0) continue;
+      Box row_box = block.box;
+      row_box.min.tail<2>() = resolution_ * (block.corner + VoxelIndex(0, y, z)).tail<2>().cast<double>();
+      row_box.max.tail<2>() = row_box.min.tail<2>() + 2.0 * half.tail<2>();
+      if (isBehindAny(middleOf(row_box), halfOf(row_box))) continue;
       for (int x = range.first[0]; x <= range.last[0]; ++x) {
         if (((row >> x) & 1U) == 0) continue;
         Voxel voxel;
