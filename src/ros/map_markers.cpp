@@ -38,15 +38,16 @@ void coarsen(std::vector<VoxelIndex>& cubes) {
   cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
 }
 
-/// From blue at 0 to red at 1, through green.
+/// From dark blue at 0 over green to pale yellow at 1.
 std_msgs::ColorRGBA heightColor(double share) {
-  const auto channel = [share](double peak) {
-    return static_cast<float>(std::clamp(1.5 - 4.0 * std::abs(share - peak), 0.1, 0.9));
-  };
+  static const Vector3 kColors[] = {{0.27, 0.35, 0.55}, {0.42, 0.66, 0.60}, {0.93, 0.83, 0.55}};
+  const std::size_t below = share < 0.5 ? 0 : 1;
+  const double weight = 2.0 * share - static_cast<double>(below);
+  const Eigen::Vector3f mixed = ((1.0 - weight) * kColors[below] + weight * kColors[below + 1]).cast<float>();
   std_msgs::ColorRGBA color;
-  color.r = channel(1.0);
-  color.g = channel(0.5);
-  color.b = channel(0.0);
+  color.r = mixed.x();
+  color.g = mixed.y();
+  color.b = mixed.z();
   color.a = 1.0F;
   return color;
 }

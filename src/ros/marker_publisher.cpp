@@ -13,6 +13,8 @@ namespace {
 
 // What does not move is sent once in so long, for viewers that join late [s].
 constexpr double kRefreshPeriod = 1.0;
+// More corridors are a tangle, and work for the thread of inputs.
+constexpr std::size_t kMostCorridors = 12;
 // Of the scene's diagonal: wide enough to be seen when the whole scene is in view.
 constexpr double kUavShare = 0.02;
 constexpr double kTextShare = 0.025;
@@ -23,13 +25,20 @@ double drawnUavWidth(const Mission& mission, double wanted, double diagonal) {
   return std::max(2.0 * mission.parameters.vehicle.arm_length, kUavShare * diagonal);
 }
 
+/// Two stages' way at full speed.
+double corridorBand(const Parameters& parameters) {
+  return 2.0 * parameters.limits.max_speed * parameters.time.sampling_time + parameters.limits.uav_radius;
+}
+
 }  // namespace
 
 MarkerPublisher::MarkerPublisher(const Mission& mission, const std::string& frame, const PlannerNodeOptions& options,
-                                 PlannerInputs& inputs)
+                                 PlannerInputs& inputs, const MapInput& maps)
     : frame_(frame),
       trail_duration_(options.trail_duration),
+      corridor_band_(corridorBand(mission.parameters)),
       inputs_(inputs),
+      maps_(maps),
       box_(boundingBox(scenePoints(mission.scenario))),
       sizes_{drawnUavWidth(mission, options.uav_marker_size, box_.diagonal().norm()),
              std::max(0.3, kTextShare * box_.diagonal().norm()),
@@ -92,6 +101,7 @@ void MarkerPublisher::publish() {
 
   locate(now, uavs);  // trails grow also while nobody looks
   if (publisher_.getNumSubscribers() == 0) return;
+  findCorridors(uavs);
   for (std::size_t uav = 0; uav < uavs.size(); ++uav) {
     const int index = static_cast<int>(uav);
     markers_.addUav(index, uavs[uav]);
@@ -118,6 +128,14 @@ void MarkerPublisher::locate(double now, std::vector<UavDrawing>& uavs) {
     if (trail.empty() || (sample.p - trail.back().position).norm() > least_move) trail.push_back({now, sample.p});
     while (!trail.empty() && trail.front().time < now - trail_duration_) trail.pop_front();
     for (const TrailPoint& point : trail) uavs[uav].trail.push_back(point.position);
+  }
+}
+
+void MarkerPublisher::findCorridors(std::vector<UavDrawing>& uavs) {
+  const std::shared_ptr<const VoxelMap> map = maps_.map();
+  if (map == nullptr) return;
+  for (std::size_t uav = 0; uav < std::min(uavs.size(), kMostCorridors); ++uav) {
+    if (uavs[uav].planned) uavs[uav].corridor = corridors_.edges(*map, uavs[uav].plan, corridor_band_);
   }
 }
 

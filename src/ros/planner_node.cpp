@@ -72,7 +72,7 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
             [this](const VoxelMap& map) { map_markers_.show(map); }),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
-      markers_(mission, frame_, options, inputs_),
+      markers_(mission, frame_, options, inputs_, maps_),
       track_timeout_(mission.parameters.input.track_timeout),
       budget_(options.planning_share),
       commands_(names_, planner_, [this] { keepModes(); }) {

@@ -20,7 +20,7 @@ constexpr int kObstacleSlices = 40;
 constexpr double kArrowTime = 4.0;
 // Characters in a line of a label; a note in a single line would run off the screen.
 constexpr std::size_t kLabelWidth = 36;
-// So long a guide is shown after it was drawn last [s].
+// So long a guide, or a corridor, is shown after it was drawn last [s].
 constexpr double kGuideLifetime = 0.5;
 // Slower is shown as standing still [m/s].
 constexpr double kStandstill = 1e-3;
@@ -138,6 +138,7 @@ void SceneMarkers::addUav(int index, const UavDrawing& uav) {
   if (uav.planned) addPlan(index, uav);
   if (uav.targeted) addTarget(index, uav);
   if (uav.guide.size() > 1) addGuide(index, uav);
+  if (!uav.corridor.empty()) addCorridor(index, uav);
 }
 
 void SceneMarkers::addPlan(int index, const UavDrawing& uav) {
@@ -171,6 +172,14 @@ void SceneMarkers::addGuide(int index, const UavDrawing& uav) {
   guide.color = uavColor(index, 0.9F);
   // Nobody takes it away when the reference is clear again.
   guide.lifetime = ros::Duration(kGuideLifetime);
+}
+
+void SceneMarkers::addCorridor(int index, const UavDrawing& uav) {
+  Marker& corridor = add("corridor", index, Marker::LINE_LIST);
+  corridor.points = toPoints(uav.corridor);
+  corridor.scale.x = 0.04 * sizes_.uav;
+  corridor.color = uavColor(index, 0.5F);
+  corridor.lifetime = ros::Duration(kGuideLifetime);
 }
 
 void SceneMarkers::addReference(int index, const MovingTarget& reference, double until) {

@@ -11,7 +11,7 @@
 namespace swarm_planner {
 
 /// Chunks that a map may need; 4 kB each.
-constexpr std::size_t kMostMapChunks = 1 << 18;
+constexpr std::size_t kMostMapChunks = 1 << 17;
 
 /// The occupied voxels of an octree. With `unknown_is_occupied` also those that are not known to be free, and whatever
 /// is outside of the box about all that is known. Null and `why` if the octree cannot be read, if nothing in it is

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "swarm_planner/PlannerStatus.h"
+#include "swarm_planner/ros/corridor_drawing.hpp"
+#include "swarm_planner/ros/map_input.hpp"
 #include "swarm_planner/ros/planner_inputs.hpp"
 #include "swarm_planner/ros/planner_options.hpp"
 #include "swarm_planner/ros/scene_markers.hpp"
@@ -23,9 +25,9 @@ namespace swarm_planner {
 /// planning cycle no more than those copies. Does nothing while nobody looks.
 class MarkerPublisher {
  public:
-  /// `inputs` must outlive this.
+  /// `inputs` and `maps` must outlive this.
   MarkerPublisher(const Mission& mission, const std::string& frame, const PlannerNodeOptions& options,
-                  PlannerInputs& inputs);
+                  PlannerInputs& inputs, const MapInput& maps);
 
   /// Takes over what a cycle decided.
   void update(const SwarmPlanner& planner, const PlannerStatus& status);
@@ -40,12 +42,16 @@ class MarkerPublisher {
 
   void publish();
   void locate(double now, std::vector<UavDrawing>& uavs);
+  void findCorridors(std::vector<UavDrawing>& uavs);
   void drawObstacles(double now, bool everything);
   std::string statusText(double now) const;
 
   const std::string frame_;
   const double trail_duration_;
+  const double corridor_band_;  ///< [m]
   PlannerInputs& inputs_;
+  const MapInput& maps_;
+  CorridorDrawing corridors_;
   Eigen::AlignedBox3d box_;  ///< of the scene [m]
   MarkerSizes sizes_;
   SceneMarkers markers_;

@@ -37,12 +37,13 @@ struct UavDrawing {
   bool targeted = false;  ///< `reference` and `target` are known
   MovingTarget reference;
   TargetState target;
-  std::vector<Vector3> guide;  ///< what it flies along in place of the reference; empty if it does not
+  std::vector<Vector3> guide;     ///< what it flies along in place of the reference; empty if it does not
+  std::vector<Vector3> corridor;  ///< edges of the free space that the map leaves about its plan, pairs of points
 };
 
 /// Makes rviz markers of a swarm. Namespaces, to switch on and off in rviz: uav, label, trail, plan, rest, reference,
-/// target, guide, separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id. The label of a
-/// UAV that is of concern is orange; where there is an alarm, label, plan and separation are red.
+/// target, guide, corridor, separation, obstacle, velocity, status. Ids are the UAV's index and the obstacle's id. The
+/// label of a UAV that is of concern is orange; where there is an alarm, label, plan and separation are red.
 class SceneMarkers {
  public:
   SceneMarkers(std::string frame, const MarkerSizes& sizes);
@@ -65,6 +66,7 @@ class SceneMarkers {
   void addPlan(int index, const UavDrawing& uav);
   void addTarget(int index, const UavDrawing& uav);
   void addGuide(int index, const UavDrawing& uav);
+  void addCorridor(int index, const UavDrawing& uav);
 
   const std::string frame_;
   const MarkerSizes sizes_;
