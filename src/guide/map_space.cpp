@@ -9,7 +9,7 @@ namespace {
 constexpr double kRecovery = 0.25;  // per metre of the way from a start that is too near, demanded again [m]
 constexpr double kRounding = 1e-6;  // [m]
 constexpr double kShort = 1e-3;     // lines shorter than this are as their middle [m]
-constexpr double kFarSight = 0.8;   // how far is looked beyond what is demanded: looking farther takes longer [m]
+constexpr double kFarSight = 0.4;   // how far is looked beyond what is demanded: looking farther takes longer [m]
 constexpr double kStep = 0.25;      // of a voxel, along a line that is blocked or nearly
 
 }  // namespace

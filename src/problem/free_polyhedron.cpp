@@ -125,6 +125,11 @@ bool PolyhedronSearch::expand(const Block& block) {
   for (int z = range.first[2]; z <= range.last[2]; ++z) {
     for (int y = range.first[1]; y <= range.last[1]; ++y) {
       const std::uint32_t row = block.chunk->surface(y, z);
+      if (row == 0) continue;
+      Box row_box = block.box;
+      row_box.min.tail<2>() = resolution_ * (block.corner + VoxelIndex(0, y, z)).tail<2>().cast<double>();
+      row_box.max.tail<2>() = row_box.min.tail<2>() + 2.0 * half.tail<2>();
+      if (isBehindAny(middleOf(row_box), halfOf(row_box))) continue;
       for (int x = range.first[0]; x <= range.last[0]; ++x) {
         if (((row >> x) & 1U) == 0) continue;
         Voxel voxel;
@@ -145,11 +150,17 @@ bool PolyhedronSearch::separate() {
   voxels_.clear();
   const Vector3 half = Vector3::Constant(0.5 * resolution_);
   std::size_t next = 0;
+  std::size_t nearest = 0;
+  const auto findNearest = [this, &nearest](std::size_t first) {
+    for (std::size_t i = first; i < voxels_.size(); ++i) {
+      if (voxels_[i].distance < voxels_[nearest].distance) nearest = i;
+    }
+  };
   for (;;) {
-    auto nearest = std::min_element(voxels_.begin(), voxels_.end(),
-                                    [](const Voxel& a, const Voxel& b) { return a.distance < b.distance; });
-    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].gap <= nearest->distance)) {
+    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].gap <= voxels_[nearest].distance)) {
+      const std::size_t known = voxels_.size();
       if (!expand(blocks_[next++])) return false;
+      findNearest(known);
       continue;
     }
     if (voxels_.empty()) return true;
@@ -157,11 +168,13 @@ bool PolyhedronSearch::separate() {
       shrinkWindow(next);
       return true;
     }
-    if (!addPlane(*nearest)) return true;
+    if (!addPlane(voxels_[nearest])) return true;
     const FreePlane& plane = polyhedron_->planes[polyhedron_->count - 1];
     voxels_.erase(std::remove_if(voxels_.begin(), voxels_.end(),
                                  [&](const Voxel& voxel) { return isBehind(plane, voxel.middle, half); }),
                   voxels_.end());
+    nearest = 0;
+    findNearest(0);
   }
 }
 

@@ -27,10 +27,6 @@ MapProof::MapProof(const VoxelMap& map, double least, const Vector3& committed)
 }
 
 ClearanceFinding MapProof::prove(const CommittedMotion& motion) {
-  // What is far from everything takes one look.
-  const Box& box = motion.box();
-  const double radius = 0.5 * (box.max - box.min).norm();
-  if (map_.distance(0.5 * (box.min + box.max), radius + demanded_) >= radius + demanded_) return {};
   for (int k = 0; k <= motion.pieces(); ++k) {
     const double from = k * motion.dt();
     const ClearanceFinding finding = prove(motion.piece(k), from, k < motion.pieces() ? from + motion.dt() : from, 0);

@@ -7,8 +7,8 @@ namespace swarm_planner {
 namespace {
 
 /// How far about a plan its corridor reaches, in the way flown per stage at full speed.
-constexpr double kBand = 2.0;
-constexpr double kLooked = 1.0;  // beyond uav_radius, for a clearance that is reported [m]
+constexpr double kBand = 1.5;
+constexpr double kLooked = 0.5;  // beyond uav_radius, for a clearance that is reported [m]
 
 }  // namespace
 

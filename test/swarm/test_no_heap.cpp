@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "check_scene.hpp"
+#include "mapped_places.hpp"
 #include "perfect_flight.hpp"
 #include "swarm_planner/config/paper_scenarios.hpp"
 #include "swarm_planner/obstacles/track_memory.hpp"
@@ -299,6 +300,17 @@ TEST_F(NoHeap, CheckingPlansAllocatesNothing) {
   }
   EXPECT_GT(accepted, 5);
   EXPECT_LT(accepted, 95);
+}
+
+// The map is made, kept and given back by whoever reads it.
+TEST_F(NoHeap, FlightsThroughMaps) {
+  const auto empty = PlaceBuilder(0.1).build();
+  const auto hall = hallWithDoor(0.9);
+  const Mission mission =
+      makeIndoorMission({Vector3(-4, -1.5, 1.2), Vector3(4, 1, 1.2)}, {Vector3(4, -1.5, 1.2), Vector3(-4, 1, 1.2)});
+  EXPECT_EQ(
+      heapCallsOfFlight(mission, 40, [&](int cycle, Snapshot& snapshot) { snapshot.map = cycle < 5 ? empty : hall; }),
+      0);
 }
 
 TEST_F(NoHeap, PlanningTheSwarmAtOnceAllocatesNothing) {

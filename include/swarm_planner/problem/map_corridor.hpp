@@ -56,6 +56,8 @@ class CorridorBuilder {
   /// Takes the free space about one of the two, or the last one.
   void choose(const CorridorRequest& request, const SegmentPoints& first, const SegmentPoints& second, int k,
               UavProblem& problem);
+  /// Whether a segment has ample room in the free space of the one before: neighbours mostly share it.
+  bool serves(const CorridorRequest& request, const SegmentPoints& segment) const;
   void assign(const CorridorRequest& request, const Vector3& start, int k, CorridorSegment& segment) const;
 
   PolyhedronSearch search_;

@@ -17,7 +17,8 @@ class MappedSpace {
   void findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem);
   /// Gives it that along its path.
   void findCorridorAlongPath(const VoxelMap* map, UavProblem& problem);
-  /// From the plan's knots to the nearest occupied voxel, less uav_radius [m]; infinite where none is within a metre.
+  /// From the plan's knots to the nearest occupied voxel, less uav_radius [m]; infinite where none is within half a
+  /// metre.
   double clearance(const VoxelMap* map, const Trajectory& plan) const;
 
  private:
