@@ -2,13 +2,13 @@
 #include "swarm_planner/swarm/uav_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
 #include "swarm_planner/swarm/place_beside.hpp"
+#include "swarm_planner/swarm/plan_parts.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/planner_limits.hpp"
 #include "swarm_planner/swarm/right_of_way.hpp"
@@ -26,8 +26,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The
 /// step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
 constexpr int kMostQpChanges = 100;
-/// Steps from the motion flown towards the solver's plan.
-constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
@@ -199,14 +197,12 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
     proposed_ = motion_;
     proposal_conflict_ = verdict.reason == CheckReason::kRestingPlace ? epoch + verdict.time : epoch;
   }
-  step_ = plan_;
-  for (const double length : kStepsBack) {
-    for (std::size_t k = 0; k < kHorizon; ++k) {
-      step_.jerks[k] = shifted_.jerks[k] + length * (plan_.jerks[k] - shifted_.jerks[k]);
-    }
-    rollOut(record.start, step_);
+  PlanParts parts(plan_, shifted_, is_motion ? verdict.time : 0.0, limits_.bounds);
+  while (parts.next(step_)) {
     if (!judge(uav, surroundings, step_).accepted()) continue;
-    report.stays = length == 0.0;
+    report.stops_early = parts.stopsEarly();
+    if (report.stops_early) report.refusal = CheckReason::kAccepted;
+    report.stays = parts.stays();
     return {};
   }
   return verdict;

@@ -79,6 +79,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "arrived_uavs",
                                       "refusals",
                                       "rejected_plans",
+                                      "plans_stopped_early",
                                       "workspace_violations",
                                       "fallbacks",
                                       "deadline_misses",

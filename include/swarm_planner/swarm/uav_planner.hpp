@@ -86,7 +86,7 @@ class UavPlanner {
 
   Trajectory plan_;     ///< in work
   Trajectory shifted_;  ///< the motion flown, from the start in work on
-  Trajectory step_;     ///< between the two
+  Trajectory step_;     ///< a part of the plan
   Trajectory along_;    ///< solved from where the guide alone leads
   ActiveRows along_active_;
   std::vector<MovingBody> no_bodies_;
