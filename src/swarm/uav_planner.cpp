@@ -25,7 +25,7 @@ constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The
 /// step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
-constexpr int kMostQpChanges = 100;
+constexpr int kMostQpChanges = 60;
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;

@@ -6,9 +6,9 @@
 namespace swarm_planner {
 
 /// Most bodies that one segment is kept clear of in one QP: the nearest ones. Of equal balls no more than 12 touch one
-/// of them, so that the others are behind these; should a step meet one of them after all, its penalty tells, and it is
-/// among the nearest of the next QP.
-constexpr std::size_t kMostSegmentPlanes = 24;
+/// of them, in a plane 6, and the others are behind these; should a step meet one of them after all, its penalty tells,
+/// and it is among the nearest of the next QP.
+constexpr std::size_t kMostSegmentPlanes = 8;
 /// Room that findSeparatingPlanes needs in its result, for any number of bodies.
 constexpr std::size_t kSegmentPlaneRoom = 2 * kMostSegmentPlanes * kHorizon;
 
