@@ -20,11 +20,12 @@ class CyclePlanner {
   virtual void restart() {}
 };
 
-/// Problem 2: one UAV after the other.
-class IterativePlanner : public CyclePlanner {
+/// Problem 2, one UAV after the other, or Problem 1, all at once.
+class SwarmCyclePlanner : public CyclePlanner {
  public:
   /// `mission` must outlive the planner.
-  explicit IterativePlanner(const Mission& mission) : mission_(mission), planner_(mission) {}
+  SwarmCyclePlanner(const Mission& mission, PlanningMode mode)
+      : mission_(mission), mode_(mode), planner_(mission, mode) {}
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
     // Guides of one cycle are used in the next, whatever their search takes: a run can be repeated.
@@ -32,7 +33,7 @@ class IterativePlanner : public CyclePlanner {
     return planner_.plan(snapshot, epoch);
   }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
-  void restart() override { planner_ = SwarmPlanner(mission_); }
+  void restart() override { planner_ = SwarmPlanner(mission_, mode_); }
 
   /// See SwarmPlanner::setReference().
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
@@ -43,7 +44,14 @@ class IterativePlanner : public CyclePlanner {
 
  private:
   const Mission& mission_;
+  PlanningMode mode_;
   SwarmPlanner planner_;
+};
+
+/// Problem 2.
+class IterativePlanner : public SwarmCyclePlanner {
+ public:
+  explicit IterativePlanner(const Mission& mission) : SwarmCyclePlanner(mission, PlanningMode::kIterative) {}
 };
 
 }  // namespace swarm_planner

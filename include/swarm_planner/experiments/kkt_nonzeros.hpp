@@ -19,4 +19,8 @@ namespace swarm_planner {
 ///      (1 where n is an axis), 1 for the slack, 1 for its sign.
 long long kktNonzeros(const Mission& mission);
 
+/// The same of the QP of all UAVs at once: each with its own dynamics, cost and rows, and a row for each pair of them
+/// on every control point, with the entries of both.
+long long jointKktNonzeros(const Mission& mission);
+
 }  // namespace swarm_planner

@@ -12,6 +12,7 @@
 #include "swarm_planner/experiments/flight_bounds.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
+#include "swarm_planner/swarm/planning_mode.hpp"
 
 namespace swarm_planner {
 
@@ -20,6 +21,7 @@ struct RunResult {
   std::string scenario;
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
+  PlanningMode mode = PlanningMode::kIterative;
   SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
