@@ -26,5 +26,12 @@ TEST(Crowds, HardlyAnyPlanOfASwapIsRefusedAsPlansMayStopEarlier) {
   EXPECT_LT(static_cast<double>(flight.rejected_plans), 0.02 * plans);
 }
 
+// The first one is held 0.1 m from where all are sent by those that have come to stay around it.
+TEST(Crowds, TheNearestOfThoseSentToOnePlaceGetsThere) {
+  const RunResult flight = flown(sameGoal(8, 0.1, 1));
+  EXPECT_EQ(flight.flown.collisions.size(), 0u);
+  EXPECT_EQ(flight.flown.arrived_uavs, 8);
+}
+
 }  // namespace
 }  // namespace swarm_planner

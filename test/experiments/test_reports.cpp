@@ -59,6 +59,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
   const std::set<std::string> keys = {"scenario",
                                       "seed",
                                       "uavs",
+                                      "mode",
                                       "problem",
                                       "cycles",
                                       "cycle_ms",

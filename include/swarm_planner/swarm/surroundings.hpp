@@ -49,8 +49,8 @@ class Surroundings {
   const Box& area(std::size_t uav) const { return areas_[uav]; }
   /// Of a distance vector of two UAVs [m]: 1 is on the pair ellipsoid, at the distance to keep.
   double pairGauge(const Vector3& apart) const;
-  /// How close the newest motions of two UAVs come within the horizon, where 1 is the distance to keep; just some number
-  /// above `limit` if it is above. Infinite if one is unknown.
+  /// How close the newest motions of two UAVs come within the horizon, where 1 is the distance to keep; just some
+  /// number above `limit` if it is above. Infinite if one is unknown.
   double leastPairGauge(std::size_t first, std::size_t second, double limit) const;
 
   /// Whether others were told of the place: only there may a motion of the UAV go that is new in this cycle.
