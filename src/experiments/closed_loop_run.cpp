@@ -217,6 +217,7 @@ void ClosedLoopRun::record(const CycleReport& report) {
   for (const UavReport& uav : report.uavs) {
     if (uav.reason != Reason::kNone && !isCommanded(uav.reason) && !isTraffic(uav.reason))
       ++result_.fallbacks[reasonText(uav.reason)];
+    if (uav.stops_early) ++result_.plans_stopped_early;
     if (uav.refusal != CheckReason::kAccepted) {
       ++result_.rejected_plans;
       ++result_.refusals[checkReasonText(uav.refusal)];

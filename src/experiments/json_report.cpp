@@ -123,6 +123,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .add("tracking_error_m", toObject(flown.tracking_error))
       .addCount("arrived_uavs", static_cast<unsigned>(flown.arrived_uavs))
       .addCount("rejected_plans", run.rejected_plans)
+      .addCount("plans_stopped_early", run.plans_stopped_early)
       .add("refusals", refusals)
       .addCount("workspace_violations", static_cast<unsigned>(flown.workspace_violations))
       .add("fallbacks", fallbacks)

@@ -18,9 +18,8 @@ constexpr double kNormBand = 0.6;  // of a norm limit, below which the iterate g
 constexpr RowSource kIterateSource = 0, kWorkspaceSource = 100, kBodySource = 200, kCorridorSource = 1U << 31U;
 
 // A knot's position has rows of two segments and of two faces of the workspace per axis.
-static_assert(2 * kMostSegmentPlanes + 2 * 6 <= kMaxBodyRows, "a stage cannot hold what is nearest");
-static_assert(2 * (kMostSegmentPlanesInMap + FreePolyhedron::kMostPlanes) + 2 * 6 <= kMaxBodyRows,
-              "a stage cannot hold what is nearest in a map");
+static_assert(2 * (kMostSegmentPlanes + FreePolyhedron::kMostPlanes) + 2 * 6 <= kMaxBodyRows,
+              "a stage cannot hold what is nearest");
 
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
 void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {

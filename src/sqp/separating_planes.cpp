@@ -40,19 +40,19 @@ void findPassage(const UavProblem& problem, const MovingBody& body, const PlanPo
 }
 
 /// Keeps of each segment's planes those of the nearest bodies, and their order.
-void keepNearest(std::size_t most, SegmentPlanes& planes) {
+void keepNearest(SegmentPlanes& planes) {
   std::array<std::size_t, kHorizon + 1> begin{};  // of each segment's part of `ranked`
   for (const SegmentPlane& plane : planes) ++begin[static_cast<std::size_t>(plane.segment) + 1];
-  if (*std::max_element(begin.begin(), begin.end()) <= most) return;
+  if (*std::max_element(begin.begin(), begin.end()) <= kMostSegmentPlanes) return;
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::array<std::size_t, kSegmentPlaneRoom> ranked;
   std::array<std::size_t, kHorizon + 1> end = begin;
   for (std::size_t i = 0; i < planes.size(); ++i) ranked[end[static_cast<std::size_t>(planes[i].segment)]++] = i;
   for (std::size_t k = 0; k < kHorizon; ++k) {
-    if (end[k] - begin[k] <= most) continue;
+    if (end[k] - begin[k] <= kMostSegmentPlanes) continue;
     const auto first = ranked.begin() + static_cast<std::ptrdiff_t>(begin[k]);
     const auto last = ranked.begin() + static_cast<std::ptrdiff_t>(end[k]);
-    const auto kept = first + static_cast<std::ptrdiff_t>(most);
+    const auto kept = first + static_cast<std::ptrdiff_t>(kMostSegmentPlanes);
     std::nth_element(first, kept, last, [&planes](std::size_t a, std::size_t b) {
       if (planes[a].clearance != planes[b].clearance) return planes[a].clearance < planes[b].clearance;
       return a < b;
@@ -90,16 +90,15 @@ void addSeparatingPlanes(const UavProblem& problem, const MovingBody& body, std:
 
 void findSeparatingPlanes(const UavProblem& problem, const Trajectory& iterate, double band, SegmentPlanes& planes) {
   planes.clear();
-  const std::size_t most = problem.corridor.active ? kMostSegmentPlanesInMap : kMostSegmentPlanes;
   PlanPoints points;
   findConstrainedPoints(problem, iterate, points);
   const Box box = planBox(points);
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     if (!problem.bodies[i].box().near(box, band)) continue;
-    if (planes.size() + kHorizon > kSegmentPlaneRoom) keepNearest(most, planes);
+    if (planes.size() + kHorizon > kSegmentPlaneRoom) keepNearest(planes);
     addSeparatingPlanes(problem, problem.bodies[i], i, points, band, planes);
   }
-  keepNearest(most, planes);
+  keepNearest(planes);
 }
 
 int firstRowPoint(const FlightBounds& bounds, const SegmentPlanes& planes, std::size_t i) {

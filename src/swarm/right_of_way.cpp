@@ -139,8 +139,12 @@ bool RightOfWay::isSettled(const TrafficState& traffic) const {
 }
 
 bool RightOfWay::sharesEnd(std::size_t i, std::size_t j) const {
+  const UavRecord& uav = (*uavs_)[i];
   const UavRecord& other = (*uavs_)[j];
-  return isSettled(other.traffic) && wayside_.spacing().gauge(endOf((*uavs_)[i]) - endOf(other)) < 1.0;
+  const PairSpacing& spacing = wayside_.spacing();
+  if (!isSettled(other.traffic) || spacing.gauge(endOf(uav) - endOf(other)) >= 1.0) return false;
+  // Whoever is nearest to where all want to be has not found its end taken, though others beside keep it from it.
+  return spacing.gauge(placeOf(other, epoch_) - endOf(other)) < spacing.gauge(placeOf(uav, epoch_) - endOf(uav));
 }
 
 void RightOfWay::findBlockers(std::size_t i, const Way& way, const NeighbourLists& neighbours) {

@@ -2,12 +2,12 @@
 #include "swarm_planner/swarm/uav_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
+#include "swarm_planner/swarm/plan_parts.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/planner_limits.hpp"
 #include "swarm_planner/swarm/right_of_way.hpp"
@@ -20,8 +20,6 @@ constexpr double kSamePlace = 1e-6;  // starts closer than this are the same [m,
 constexpr double kPassed = 0.5;      // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kStanding = 0.05;   // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Steps from the motion flown towards the solver's plan.
-constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
   return (x.p - y.p).norm() > kSamePlace || (x.v - y.v).norm() > kSamePlace;
@@ -216,14 +214,12 @@ CheckVerdict UavPlanner::decide(std::size_t uav, UavRecord& record, const Surrou
     proposed_ = motion_;
     proposal_conflict_ = problem_.epoch + (verdict.reason == CheckReason::kRestingPlace ? verdict.time : 0.0);
   }
-  step_ = plan_;
-  for (const double length : kStepsBack) {
-    for (std::size_t k = 0; k < kHorizon; ++k) {
-      step_.jerks[k] = shifted_.jerks[k] + length * (plan_.jerks[k] - shifted_.jerks[k]);
-    }
-    rollOut(record.start, step_);
+  PlanParts parts(plan_, shifted_, is_motion ? verdict.time : 0.0, limits_.bounds);
+  while (parts.next(step_)) {
     if (!judge(uav, surroundings, step_).accepted()) continue;
-    report.stays = length == 0.0;
+    report.stops_early = parts.stopsEarly();
+    if (report.stops_early) report.refusal = CheckReason::kAccepted;
+    report.stays = parts.stays();
     return {};
   }
   return verdict;

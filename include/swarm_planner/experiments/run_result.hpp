@@ -33,6 +33,7 @@ struct RunResult {
   RunSummary flown;                              ///< what the simulated vehicles did
   std::vector<FlightBound> bounds;               ///< what each UAV's flight is measured against
   std::size_t rejected_plans = 0;                ///< plans that the check refused
+  std::size_t plans_stopped_early = 0;           ///< plans that flew up to an earlier stop than their own
   std::map<std::string, std::size_t> refusals;   ///< the check's reason in words -> plans
   std::map<std::string, std::size_t> fallbacks;  ///< reason in words -> UAVs and cycles
   std::size_t deadline_misses = 0;               ///< cycles that took longer than cycle_period

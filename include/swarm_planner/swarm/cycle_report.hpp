@@ -83,9 +83,10 @@ struct UavReport {
   bool overrun = false;                          ///< its turn did not come
   bool solved = false;                           ///< a QP had an answer
   CheckReason refusal = CheckReason::kAccepted;  ///< of the solver's plan; the check may have passed a shorter step
-  bool stays = false;      ///< of the solver's plan nothing passed: the motion goes on from where the UAV will be
-  double max_slack = 0.0;  ///< largest violation of a constraint by what flies [m, m/s, m/s^2]
-  double deviation = 0.0;  ///< of the UAV from what it was to fly, as measured [m]
+  bool stops_early = false;  ///< the solver's plan flies up to an earlier stop; that does not count as a refusal
+  bool stays = false;        ///< of the solver's plan nothing passed: the motion goes on from where the UAV will be
+  double max_slack = 0.0;    ///< largest violation of a constraint by what flies [m, m/s, m/s^2]
+  double deviation = 0.0;    ///< of the UAV from what it was to fly, as measured [m]
   double obstacle_clearance =
       0.0;                     ///< smallest predicted, centre to surface minus uav_radius [m]; +inf without obstacle
   double pair_distance = 0.0;  ///< smallest predicted centre distance to another UAV [m]; +inf without

@@ -18,7 +18,7 @@ namespace swarm_planner {
 
 /// Changes of the active set per UAV and QP: where a crowd leaves no way, hundreds would go into rows that stay
 /// violated. The step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
-constexpr int kMostQpChanges = 100;
+constexpr int kMostQpChanges = 60;
 
 /// Plans for one UAV at a time: poses its problem, solves it, has the plan checked, commits it or falls back, reports.
 /// Holds the memory that this takes, so that every thread needs one of its own.
@@ -121,7 +121,7 @@ class UavPlanner {
 
   Trajectory plan_;     ///< in work
   Trajectory shifted_;  ///< the motion flown, from the start in work on
-  Trajectory step_;     ///< between the two
+  Trajectory step_;     ///< a part of the plan
   Trajectory along_;    ///< solved from where the guide alone leads
   ActiveRows along_active_;
   std::vector<MovingBody> no_bodies_;
