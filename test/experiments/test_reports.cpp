@@ -61,6 +61,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "uavs",
                                       "mode",
                                       "problem",
+                                      "mode",
                                       "cycles",
                                       "cycle_ms",
                                       "uav_ms",
