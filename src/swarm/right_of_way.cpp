@@ -15,6 +15,7 @@ constexpr double kHardlyMoved = 0.25;     // of the pair distance
 constexpr double kLookAhead = 3.0;        // spacings of its way on which a UAV looks who stands there
 constexpr double kWayLength = 40.0;       // spacings of a way in which it can be passed
 constexpr double kInTheWay = 0.95;        // of the spacing: who only touches the way is not in it
+constexpr double kNearer = 0.05;          // spacings; those beside one end are about as far from it
 constexpr double kPast = 1.2;             // spacings behind a place at which a UAV is past it
 constexpr double kLongest = 4.0;          // patiences without progress after which it is not waited for any longer
 constexpr double kMostInsistence = 32.0;  // times the patience
@@ -143,8 +144,9 @@ bool RightOfWay::sharesEnd(std::size_t i, std::size_t j) const {
   const UavRecord& other = (*uavs_)[j];
   const PairSpacing& spacing = wayside_.spacing();
   if (!isSettled(other.traffic) || spacing.gauge(endOf(uav) - endOf(other)) >= 1.0) return false;
-  // Whoever is nearest to where all want to be has not found its end taken, though others beside keep it from it.
-  return spacing.gauge(placeOf(other, epoch_) - endOf(other)) < spacing.gauge(placeOf(uav, epoch_) - endOf(uav));
+  // Whoever is nearer to where all want to be has not found its end taken, though others beside keep it from it.
+  return spacing.gauge(placeOf(other, epoch_) - endOf(other)) <
+         spacing.gauge(placeOf(uav, epoch_) - endOf(uav)) + kNearer;
 }
 
 void RightOfWay::findBlockers(std::size_t i, const Way& way, const NeighbourLists& neighbours) {

@@ -47,8 +47,8 @@ class RightOfWay {
   /// Asks UAV `j` to leave the way of UAV i. False if it has no place to go.
   bool ask(std::size_t i, std::size_t j, const NeighbourLists& neighbours);
   bool mayAsk(std::size_t i, std::size_t j) const;
-  /// Whether the references' ends are too close for both to be there, and j has got to where it stays, nearer to its
-  /// end than i is to its own.
+  /// Whether the references' ends are too close for both to be there, and j has got to where it stays, hardly farther
+  /// from its end than i is from its own.
   bool sharesEnd(std::size_t i, std::size_t j) const;
   bool isSettled(const TrafficState& traffic) const;
   /// Its own rank, or that which it has inherited.
