@@ -42,6 +42,7 @@ build_packages=(
 )
 run_packages=(python3-rosbag rosbash rosout)
 test_packages=(
+  coinor-libipopt-dev
   libbenchmark-dev
   python3-diagnostic-msgs
   python3-geometry-msgs

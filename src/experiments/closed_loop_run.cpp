@@ -55,6 +55,7 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   result_.seed = seed;
   result_.uavs = vehicles_.size();
   result_.simulation = simulation;
+  result_.as_paper = mission.parameters.limits.as_paper;
   result_.left_out = leftOut(mission.parameters.limits);
   result_.kkt_nonzeros = kktNonzeros(mission);
   faults_.scheduleScenario(0.0);
@@ -69,7 +70,9 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
 RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
   const double period = mission_.parameters.time.cycle_period;
   const int sendings = 1 + mission_.parameters.input.setpoint_repeats;
-  long long sending = -sendings;  // the first of each cycle follows on planning; cycle -1 plans from t = 0 on
+  // The first of each cycle follows on planning; cycle -1 plans from t = 0 on. To the paper planning takes no time.
+  const int lead = mission_.parameters.limits.as_paper ? 0 : 1;
+  long long sending = -lead * sendings;
   long long evaluation = 0;
   while (!monitor_.ended()) {
     // Both from counters: a sum of periods would drift.
@@ -78,7 +81,7 @@ RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
     measureBefore(std::min(sending_time, evaluation_time) - kSameInstant);
     if (sending_time < evaluation_time - kSameInstant) {
       if (sending % sendings == 0) {
-        planCycle(sending_time, static_cast<double>(sending / sendings + 1) * period, observers);
+        planCycle(sending_time, static_cast<double>(sending / sendings + lead) * period, observers);
       } else {
         moveTo(sending_time);
       }

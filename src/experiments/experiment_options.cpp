@@ -211,6 +211,8 @@ void Parser::readOption(const std::string& option) {
     options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
   } else if (option == "--shortest-paths") {
     options_.shortest_paths = true;
+  } else if (option == "--as-paper") {
+    options_.as_paper = true;
   } else if (option == "--without") {
     leaveOut(value(option));
   } else if (const auto disturbance = kDisturbances.find(option); disturbance != kDisturbances.end()) {
@@ -240,7 +242,7 @@ void Parser::leaveOut(const std::string& names) {
 }
 
 void Parser::readStudyOption(const std::string& option) {
-  static const std::vector<std::string> kNotYet = {"--joint", "--as-paper"};
+  static const std::vector<std::string> kNotYet = {"--joint"};
   if (option == "--uavs") {
     if (default_uavs_.empty()) throw OptionError(option + ": does not go with this command");
     for (const std::string& count : values(option)) {
@@ -338,6 +340,8 @@ options:
                          guide      no ways round what blocks references are searched
                          avoidance  plans ignore obstacles and other UAVs
                          right_of_way  no UAV gives way where several block each other
+  --as-paper           the paper's method alone: the acceleration is held between the samples, constraints hold at the
+                       samples, and there is neither check nor guide nor right of way; planning takes no time
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

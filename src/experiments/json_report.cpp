@@ -127,6 +127,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .addCount("deadline_misses", run.deadline_misses)
       .add("cost", flown.cost)
       .add("disturbances", disturbances(run.simulation))
+      .addFlag("as_paper", run.as_paper)
       .add("without", run.left_out);
   addProgress(scenario, run, object);
   addFaults(run, object);

@@ -50,10 +50,20 @@ RowCount countRows(const Mission& mission) {
   return count;
 }
 
+/// Hessian and dynamics, one triangle of the latter, with the acceleration as input: its change couples neighbours.
+long long heldAccelerationEntries() {
+  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + (kHorizon - 1) * 2 * kAxes;
+  const long long dynamics = kHorizon * (6 + 6) + (kHorizon - 1) * 9;
+  return hessian + 2 * dynamics;
+}
+
 }  // namespace
 
 long long kktNonzeros(const Mission& mission) {
   const RowCount rows = countRows(mission);
+  if (mission.parameters.limits.as_paper) {
+    return heldAccelerationEntries() + rows.rows + 2 * (rows.entries + 2 * rows.rows);
+  }
   const long long last_acceleration = kAxes;
   const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + last_acceleration + rows.rows;
   const long long dynamics = kHorizon * (9 + 9) + (kHorizon - 1) * 18;

@@ -45,7 +45,8 @@ void addBodyViolations(const UavProblem& problem, const MovingBody& body, const 
     const bool has_plane = plane != end && plane->body == index && plane->segment == k;
     const SegmentPoints relative = relativeConstrainedPoints(problem, points, k, body);
     if (isBeyond(body, relative, 0.0)) continue;
-    const double known = has_plane ? leastClearance(plane->half_space, relative) : -kInfinity;
+    const bool is_safe = has_plane && body.halfSpacesAreSafe();
+    const double known = is_safe ? leastClearance(plane->half_space, relative) : -kInfinity;
     if (known >= 0.0) continue;
     const SegmentClearance segment = segmentClearance(body, k, relative);
     if (segment.clearance >= 0.0) continue;
@@ -142,7 +143,9 @@ Merit merit(const UavProblem& problem, const Trajectory& plan, const SegmentPlan
 }
 
 PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {
-  const double uav_radius = problem.parameters->limits.uav_radius;
+  // The paper's obstacles have grown by it.
+  const LimitParameters& limits = problem.parameters->limits;
+  const double uav_radius = limits.as_paper ? 0.0 : limits.uav_radius;
   PredictedClearance least{kInfinity, kInfinity};
   for (const MovingBody& body : problem.bodies) {
     for (int k = 0; k <= kHorizon; ++k) {

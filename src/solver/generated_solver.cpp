@@ -67,6 +67,7 @@ GeneratedTables::GeneratedTables(const std::vector<QpModel>& models) {
     parameters.drag = model.drag_over_mass;
     parameters.slack_linear = model.slack_linear;
     parameters.slack_quadratic = model.slack_quadratic;
+    parameters.held = model.holds_acceleration ? 1.0 : 0.0;
     auto entry = std::make_unique<Entry>();
     entry->model = model;
     if (functions().setup(&entry->tables, &parameters, PLANNER_QP_HASH) != PLANNER_QP_SOLVED) {

@@ -45,7 +45,7 @@ void addPlanes(const UavProblem& problem, std::size_t index, const PlanPoints& p
   Passage passage;
   findPassage(problem, body, points, band, passage);
   std::optional<PassingSide> side;
-  if (passage.deepest > 0) {
+  if (passage.deepest > 0 && !problem.parameters->limits.as_paper) {
     const auto i = static_cast<std::size_t>(passage.deepest);
     const double time = passage.deepest * problem.dt;
     const Vector3 position = midpoint(points[i]);

@@ -21,6 +21,7 @@ struct RunResult {
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
   SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
+  bool as_paper = false;              ///< the paper's method alone
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
   Distribution cycle_ms;                         ///< planning of the whole swarm, snapshot in to plans out [ms]
