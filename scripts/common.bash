@@ -53,6 +53,7 @@ test_packages=(
   python3-tf2-msgs
   python3-trajectory-msgs
 )
+paper_packages=(python3-matplotlib python3-yaml)
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)
 tidy_packages=(clang-tidy)

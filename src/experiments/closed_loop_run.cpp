@@ -246,6 +246,8 @@ void ClosedLoopRun::evaluate(double t, const std::vector<RunObserver*>& observer
 void ClosedLoopRun::summarise() {
   result_.cycle_ms = distributionOf(cycle_ms_);
   result_.uav_ms = distributionOf(uav_ms_);
+  result_.cycle_ms_histogram = histogramOf(cycle_ms_);
+  result_.uav_ms_histogram = histogramOf(uav_ms_);
   result_.sqp_iterations = meanMax(sqp_iterations_);
   result_.qp_iterations = meanMax(qp_iterations_);
   result_.flown = monitor_.summary();

@@ -176,6 +176,7 @@ ReferenceOptimum solveByIpopt(const ReferenceProgram& program, const Trajectory&
   ipopt->Options()->SetIntegerValue("print_level", 0);
   ipopt->Options()->SetStringValue("sb", "yes");  // no banner
   ipopt->Options()->SetIntegerValue("max_iter", 300);
+  ipopt->Options()->SetNumericValue("bound_relax_factor", 0.0);  // slacks below zero would be paid for
   ipopt->Options()->SetNumericValue("tol", 1e-8);
   if (ipopt->Initialize("") != Ipopt::Solve_Succeeded) return optimum;
   const Ipopt::SmartPtr<Ipopt::TNLP> adapter = new Adapter(program, program.startAt(start), optimum);

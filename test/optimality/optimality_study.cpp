@@ -78,11 +78,22 @@ class Comparison {
     if (compared.gap() > kFarBetter) {
       const std::optional<ReferenceOptimum> nearby = reference(met.problem, plan, pairs);
       if (nearby) compared.nearby = nearby->cost;
+      compared.converged = convergedCost(met);
     }
     result_.programs.push_back(compared);
   }
 
  private:
+  double convergedCost(const MetProgram& met) {
+    Parameters parameters = *met.problem.parameters;
+    parameters.sqp.max_iterations = kMostSqpIterations;
+    UavProblem problem = met.problem;
+    problem.parameters = &parameters;
+    Trajectory plan = met.guess;
+    ActiveRows active;
+    return solver_.solve(problem, plan, active).merit;
+  }
+
   static SqpSolver makeSolver(const Parameters& parameters) {
     const QpModels models = makeQpModels(parameters);
     const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
@@ -99,6 +110,7 @@ class Comparison {
 
 double ComparedProgram::gap() const { return (cost - reference) / std::max(reference, kLeastCost); }
 double ComparedProgram::nearbyGap() const { return (cost - nearby) / std::max(nearby, kLeastCost); }
+double ComparedProgram::convergedGap() const { return (converged - reference) / std::max(reference, kLeastCost); }
 
 void compareWithIpopt(const Mission& mission, int stride, int most, ComparedPrograms& result) {
   Comparison comparison(mission, static_cast<int>(result.programs.size()) + most, result);

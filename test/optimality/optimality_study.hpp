@@ -23,6 +23,7 @@ struct ComparedProgram {
   double cost = 0.0;            ///< ours, with penalties, after the iterations in flight
   double reference = 0.0;       ///< of Ipopt's local optimum
   double nearby = 0.0;          ///< of that which Ipopt finds from our plan; only where `reference` is far better
+  double converged = 0.0;       ///< ours after many more iterations; only where `reference` is far better
   int iterations = 0;           ///< ours
   double slack = 0.0;           ///< the largest violation of ours
   double reference_slack = 0.0;
@@ -30,6 +31,8 @@ struct ComparedProgram {
   double gap() const;
   /// To the optimum next to our plan.
   double nearbyGap() const;
+  /// What would be left after many more iterations.
+  double convergedGap() const;
 };
 
 /// Ipopt could not solve a program: `failed` counts them.

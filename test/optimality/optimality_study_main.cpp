@@ -17,7 +17,6 @@ namespace {
 constexpr int kStride = 12;  // cycles between those that are looked at
 constexpr int kMostPerFlight = 150;
 constexpr double kWithin = 0.01;
-constexpr double kSlack = 1e-4;  // [m]
 
 struct Method {
   const char* name;
@@ -31,13 +30,6 @@ std::vector<Scenario> flights() {
   return list;
 }
 
-/// Why a plan is far from the reference.
-const char* reasonOf(const ComparedProgram& program) {
-  if (program.nearbyGap() <= kWithin) return "other_local_minimum";
-  if (program.reference_slack > kSlack || program.slack > kSlack) return "slack";
-  return "not_converged";
-}
-
 JsonObject toObject(const ComparedProgram& program) {
   JsonObject object;
   object.add("scenario", program.scenario)
@@ -49,6 +41,7 @@ JsonObject toObject(const ComparedProgram& program) {
       .add("ipopt_cost", program.reference)
       .add("gap", program.gap())
       .add("gap_to_nearby_optimum", program.nearbyGap())
+      .add("cost_after_50_iterations", program.converged)
       .addCount("sqp_iterations", static_cast<unsigned>(program.iterations))
       .add("slack_m", program.slack)
       .add("ipopt_slack_m", program.reference_slack);
@@ -57,29 +50,31 @@ JsonObject toObject(const ComparedProgram& program) {
 
 JsonObject summary(const ComparedPrograms& result, bool constrained_only) {
   std::vector<double> gaps;
-  unsigned within = 0, better = 0, other_minimum = 0, slack = 0, not_converged = 0;
+  unsigned within = 0, better = 0, sooner_or_later = 0, other_minimum = 0;
   for (const ComparedProgram& program : result.programs) {
     if (constrained_only && !program.is_constrained) continue;
     gaps.push_back(program.gap());
     better += program.gap() < -kWithin ? 1 : 0;
     if (program.gap() <= kWithin) {
       ++within;
-      continue;
+    } else if (program.convergedGap() <= kWithin) {
+      ++sooner_or_later;
+    } else if (program.nearbyGap() <= kWithin) {
+      ++other_minimum;
     }
-    const std::string reason = reasonOf(program);
-    ++(reason == "slack" ? slack : reason == "not_converged" ? not_converged : other_minimum);
   }
+  const auto count = static_cast<unsigned>(gaps.size());
   const Distribution distribution = distributionOf(gaps);
   JsonObject object;
-  object.addCount("programs", gaps.size())
-      .add("within_1_percent", gaps.empty() ? 0.0 : within / static_cast<double>(gaps.size()))
+  object.addCount("programs", count)
+      .add("within_1_percent", count > 0 ? static_cast<double>(within) / count : 0.0)
       .add("median_gap", distribution.median)
       .add("p99_gap", distribution.p99)
       .add("max_gap", distribution.max)
       .addCount("better_by_1_percent", better)
-      .addCount("beyond_other_local_minimum", other_minimum)
-      .addCount("beyond_slack", slack)
-      .addCount("beyond_not_converged", not_converged);
+      .addCount("beyond_more_iterations", sooner_or_later)
+      .addCount("beyond_other_minimum", other_minimum)
+      .addCount("beyond_no_step", count - within - sooner_or_later - other_minimum);
   return object;
 }
 
