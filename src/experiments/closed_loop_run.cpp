@@ -62,6 +62,7 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   if (!scenario.end.duration) return;
   const auto cycles = static_cast<std::size_t>(*scenario.end.duration / mission.parameters.time.cycle_period) + 2;
   setAside(cycle_ms_, cycles);
+  setAside(cycle_cpu_ms_, cycles);
   for (std::vector<double>* samples : {&uav_ms_, &sqp_iterations_, &qp_iterations_}) {
     setAside(*samples, cycles * vehicles_.size());
   }
@@ -215,6 +216,7 @@ void ClosedLoopRun::receiveSetpoints(std::size_t uav, double now) {
 void ClosedLoopRun::record(const CycleReport& report) {
   ++result_.cycles;
   cycle_ms_.push_back(kSecondsToMilliseconds * report.cycle_time);
+  cycle_cpu_ms_.push_back(kSecondsToMilliseconds * planner_.processorTime());
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
     if (uav.reason != Reason::kNone && !isCommanded(uav.reason) && !isTraffic(uav.reason))
@@ -246,6 +248,7 @@ void ClosedLoopRun::evaluate(double t, const std::vector<RunObserver*>& observer
 void ClosedLoopRun::summarise() {
   result_.cycle_ms = distributionOf(cycle_ms_);
   result_.uav_ms = distributionOf(uav_ms_);
+  result_.cycle_cpu_ms = distributionOf(cycle_cpu_ms_);
   result_.cycle_ms_histogram = histogramOf(cycle_ms_);
   result_.uav_ms_histogram = histogramOf(uav_ms_);
   result_.sqp_iterations = meanMax(sqp_iterations_);

@@ -113,6 +113,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .addCount("cycles", run.cycles)
       .add("cycle_ms", toObject(run.cycle_ms))
       .add("uav_ms", toObject(run.uav_ms))
+      .add("cycle_cpu_ms", toObject(run.cycle_cpu_ms))
       .add("cycle_ms_histogram", toObject(run.cycle_ms_histogram))
       .add("uav_ms_histogram", toObject(run.uav_ms_histogram))
       .add("sqp_iterations", toObject(run.sqp_iterations))

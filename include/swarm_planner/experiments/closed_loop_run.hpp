@@ -103,6 +103,7 @@ class ClosedLoopRun {
 
   RunResult result_;
   std::vector<double> cycle_ms_;
+  std::vector<double> cycle_cpu_ms_;
   std::vector<double> uav_ms_;
   std::vector<double> sqp_iterations_;
   std::vector<double> qp_iterations_;

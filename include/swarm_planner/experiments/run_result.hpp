@@ -26,6 +26,7 @@ struct RunResult {
   std::size_t cycles = 0;
   Distribution cycle_ms;  ///< planning of the whole swarm, snapshot in to plans out [ms]
   Distribution uav_ms;    ///< planning of one UAV [ms]
+  Distribution cycle_cpu_ms;  ///< processor time of the same, of the thread that calls the planner [ms]
   Histogram cycle_ms_histogram;
   Histogram uav_ms_histogram;
   MeanMax sqp_iterations;                        ///< per UAV and cycle
