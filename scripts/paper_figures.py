@@ -5,6 +5,7 @@ import csv
 import json
 
 import matplotlib
+import yaml
 
 matplotlib.use("Agg")
 from matplotlib import patches, pyplot  # noqa: E402  (after the choice of the back end)
@@ -56,12 +57,18 @@ def save(figure, output, name):
     return name
 
 
-def obstacle_starts(output, name, run):
-    first = {}
-    for line in read(output, f"{name}_obstacles"):
-        if int(line["run"]) == run:
-            first.setdefault(line["id"], (float(line["x"]), float(line["y"])))
-    return first
+def draw_obstacles(output, axis, z):
+    """Obstacles that reach to within a few metres of the height `z`, where they start, with their way in 10 s."""
+    for obstacle in yaml.safe_load((output / "paper_six.yaml").read_text())["obstacles"]:
+        x, y, height = obstacle["center"]
+        if abs(height - z) > obstacle["radii"][2] + 2:
+            continue
+        width, depth = 2 * obstacle["radii"][0], 2 * obstacle["radii"][1]
+        vx, vy, _ = obstacle.get("velocity", [0, 0, 0])
+        axis.add_patch(patches.Ellipse((x, y), width, depth, color="tab:orange" if vx or vy else "0.8"))
+        if vx or vy:
+            axis.annotate(f"{abs(vx) + abs(vy):g} m/s", (x + 10 * vx, y + 10 * vy), (x, y), fontsize=8,
+                          arrowprops={"arrowstyle": "->"})
 
 
 def figure_3(output):
@@ -74,13 +81,12 @@ def figure_3(output):
         sources.insert(1, ("compare_ours", joint_run(runs), JOINT_COLOUR, "ours, Problem 1"))
     for name, run, colour, label in sources:
         for i, (_, (_, x, y, _)) in enumerate(sorted(tracks(output, name, run).items())):
-            axes[(i + 1) % 2 == 1].plot(x, y, color=colour, linewidth=1.2, label=label if i < 2 else None)
+            axes[1 - i % 2].plot(x, y, color=colour, linewidth=1.2, label=label if i < 2 else None)
     for axis, title in zip(axes, ("UAVs 2, 4, 6 (z = 40 m)", "UAVs 1, 3, 5 (z = 20 m)")):
         for y in (100, 150, 200):
             axis.axhline(y, color="tab:green", linestyle="--", linewidth=0.8)
-        for x, y in obstacle_starts(output, "compare_as_paper", 0).values():
-            axis.add_patch(patches.Circle((x, y), 12, color="0.8"))
-        axis.set(ylabel="y [m]", title=title, ylim=(60, 240))
+        draw_obstacles(output, axis, 40 if axis is axes[0] else 20)
+        axis.set(ylabel="y [m]", title=title, ylim=(-10, 310))
         axis.legend(fontsize=8, loc="lower right")
     axes[1].set_xlabel("x [m]")
     return save(figure, output, "figure_3.png")

@@ -72,6 +72,7 @@ def compare(study):
     scenario = study.root / "config/scenarios/paper_six.yaml"
     knows_joint = "compare" in study.run("swarm_experiment", "--help").split("options:")[0]
     command = ["compare"] if knows_joint else ["fly", scenario]
+    shutil.copy(scenario, study.output / scenario.name)
     study.experiment("compare_ours", *command, keep_states=True)
     study.experiment("compare_as_paper", "fly", scenario, "--as-paper", keep_states=True)
 

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "number_text.hpp"
@@ -112,7 +111,6 @@ class Resolution {
     LimitParameters& limits = parameters.limits;
     limits.plan_check = limits.segment_constraints = limits.guide = limits.right_of_way = false;
     limits.latency_compensation = false;
-    limits.max_jerk = std::numeric_limits<double>::infinity();
   }
 
   static std::vector<std::string> names() {

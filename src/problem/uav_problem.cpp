@@ -73,7 +73,7 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   const VehicleParameters& vehicle = parameters.vehicle;
   max_speed = limits.max_speed;
   max_acceleration = limits.max_acceleration;
-  max_jerk = limits.max_jerk;
+  max_jerk = limits.as_paper ? kInfinity : limits.max_jerk;
   max_thrust_acceleration = limits.max_thrust_ratio * vehicle.gravity;
   min_vertical_thrust = (limits.min_thrust_ratio - 1.0) * vehicle.gravity;
   drag_over_mass = vehicle.dragOverMass();
