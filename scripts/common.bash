@@ -45,6 +45,7 @@ build_packages=(
 )
 run_packages=(python3-rosbag rosbash rosout)
 test_packages=(
+  coinor-libipopt-dev
   libbenchmark-dev
   python3-diagnostic-msgs
   python3-geometry-msgs
@@ -56,6 +57,7 @@ test_packages=(
   python3-tf2-msgs
   python3-trajectory-msgs
 )
+paper_packages=(python3-matplotlib python3-yaml)
 view_packages=(rviz x11-utils)
 lint_packages=(catkin-lint clang-format)
 tidy_packages=(clang-tidy)

@@ -69,6 +69,7 @@ class Resolution {
       limits.tracking_error = kErrorShare * std::min(limits.tracking_margin, 0.5 * limits.pair_margin);
     if (!isSet("lost_growth_limit")) parameters.input.lost_growth_limit = limits.pair_distance;
     if (!isSet("setpoint_repeats")) parameters.input.setpoint_repeats = parameters.simulation.drop > 0.0 ? 1 : 0;
+    if (limits.as_paper) leaveToPaper();
   }
 
   /// Checks of one parameter against another. A parameter that already has a fault is not judged again.
@@ -105,6 +106,13 @@ class Resolution {
   Parameters parameters;
 
  private:
+  /// Everything that the paper's method does not have.
+  void leaveToPaper() {
+    LimitParameters& limits = parameters.limits;
+    limits.plan_check = limits.segment_constraints = limits.guide = limits.right_of_way = false;
+    limits.latency_compensation = false;
+  }
+
   static std::vector<std::string> names() {
     std::vector<std::string> names;
     for (const ParameterInfo& info : parameterTable()) names.push_back(info.name);

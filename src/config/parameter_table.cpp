@@ -130,6 +130,9 @@ void addLimits(TableBuilder& table) {
   table.boolean(
       "latency_compensation", [](P& p) -> bool& { return p.limits.latency_compensation; },
       "false: measurements count as of the present, and plans start from them; for negative controls only");
+  table.boolean(
+      "as_paper", [](P& p) -> bool& { return p.limits.as_paper; },
+      "true: the paper's method alone, without any of the protections above but avoidance; for comparison only");
 }
 
 void addLanding(TableBuilder& table) {
@@ -379,22 +382,6 @@ const std::vector<ParameterEntry>& parameterEntries() {
     return table.take();
   }();
   return kEntries;
-}
-
-const ParameterEntry* findParameter(const std::string& name) {
-  for (const ParameterEntry& entry : parameterEntries()) {
-    if (entry.info.name == name) return &entry;
-  }
-  return nullptr;
-}
-
-const std::vector<ParameterInfo>& parameterTable() {
-  static const std::vector<ParameterInfo> kTable = [] {
-    std::vector<ParameterInfo> table;
-    for (const ParameterEntry& entry : parameterEntries()) table.push_back(entry.info);
-    return table;
-  }();
-  return kTable;
 }
 
 }  // namespace swarm_planner

@@ -56,12 +56,14 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
   result_.seed = seed;
   result_.uavs = vehicles_.size();
   result_.simulation = simulation;
+  result_.as_paper = mission.parameters.limits.as_paper;
   result_.left_out = leftOut(mission.parameters.limits);
   result_.kkt_nonzeros = kktNonzeros(mission);
   faults_.scheduleScenario(0.0);
   if (!scenario.end.duration) return;
   const auto cycles = static_cast<std::size_t>(*scenario.end.duration / mission.parameters.time.cycle_period) + 2;
   setAside(cycle_ms_, cycles);
+  setAside(cycle_cpu_ms_, cycles);
   for (std::vector<double>* samples : {&uav_ms_, &sqp_iterations_, &qp_iterations_}) {
     setAside(*samples, cycles * vehicles_.size());
   }
@@ -70,7 +72,9 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
 RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
   const double period = mission_.parameters.time.cycle_period;
   const int sendings = 1 + mission_.parameters.input.setpoint_repeats;
-  long long sending = -sendings;  // the first of each cycle follows on planning; cycle -1 plans from t = 0 on
+  // The first of each cycle follows on planning; cycle -1 plans from t = 0 on. To the paper planning takes no time.
+  const int lead = mission_.parameters.limits.as_paper ? 0 : 1;
+  long long sending = -lead * sendings;
   long long evaluation = 0;
   while (!monitor_.ended()) {
     // Both from counters: a sum of periods would drift.
@@ -79,7 +83,7 @@ RunResult ClosedLoopRun::fly(const std::vector<RunObserver*>& observers) {
     measureBefore(std::min(sending_time, evaluation_time) - kSameInstant);
     if (sending_time < evaluation_time - kSameInstant) {
       if (sending % sendings == 0) {
-        planCycle(sending_time, static_cast<double>(sending / sendings + 1) * period, observers);
+        planCycle(sending_time, static_cast<double>(sending / sendings + lead) * period, observers);
       } else {
         moveTo(sending_time);
       }
@@ -213,6 +217,7 @@ void ClosedLoopRun::receiveSetpoints(std::size_t uav, double now) {
 void ClosedLoopRun::record(const CycleReport& report) {
   ++result_.cycles;
   cycle_ms_.push_back(kSecondsToMilliseconds * report.cycle_time);
+  cycle_cpu_ms_.push_back(kSecondsToMilliseconds * planner_.processorTime());
   if (report.cycle_time > mission_.parameters.time.cycle_period) ++result_.deadline_misses;
   for (const UavReport& uav : report.uavs) {
     if (uav.reason != Reason::kNone && !isCommanded(uav.reason) && !isTraffic(uav.reason))
@@ -245,6 +250,9 @@ void ClosedLoopRun::evaluate(double t, const std::vector<RunObserver*>& observer
 void ClosedLoopRun::summarise() {
   result_.cycle_ms = distributionOf(cycle_ms_);
   result_.uav_ms = distributionOf(uav_ms_);
+  result_.cycle_cpu_ms = distributionOf(cycle_cpu_ms_);
+  result_.cycle_ms_histogram = histogramOf(cycle_ms_);
+  result_.uav_ms_histogram = histogramOf(uav_ms_);
   result_.sqp_iterations = meanMax(sqp_iterations_);
   result_.qp_iterations = meanMax(qp_iterations_);
   result_.flown = monitor_.summary();

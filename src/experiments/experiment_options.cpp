@@ -215,6 +215,8 @@ void Parser::readOption(const std::string& option) {
     options_.threads = static_cast<int>(wholeNumber(option, value(option), 1, kMostThreads));
   } else if (option == "--shortest-paths") {
     options_.shortest_paths = true;
+  } else if (option == "--as-paper") {
+    options_.as_paper = true;
   } else if (option == "--without") {
     leaveOut(value(option));
   } else if (const auto disturbance = kDisturbances.find(option); disturbance != kDisturbances.end()) {
@@ -244,7 +246,6 @@ void Parser::leaveOut(const std::string& names) {
 }
 
 void Parser::readStudyOption(const std::string& option) {
-  static const std::vector<std::string> kNotYet = {"--as-paper"};
   if (option == "--joint" || option == "--groups") {
     if (options_.command == ExperimentCommand::kCompare) throw OptionError(option + ": does not go with this command");
     options_.mode = option == "--joint" ? PlanningMode::kJoint : PlanningMode::kGroups;
@@ -273,8 +274,6 @@ void Parser::readStudyOption(const std::string& option) {
   } else if (option == "--obstacles") {
     requireCommand(option, {ExperimentCommand::kMovingObstacles});
     options_.obstacles = static_cast<int>(wholeNumber(option, value(option), 1, kMostObstacles));
-  } else if (std::find(kNotYet.begin(), kNotYet.end(), option) != kNotYet.end()) {
-    throw OptionError(option + ": not supported yet");
   } else {
     throw OptionError("unknown option " + option);
   }
@@ -351,6 +350,8 @@ options:
                          right_of_way  no UAV gives way where several block each other
   --joint              plan by Problem 1, all UAVs at once, at most 8
   --groups             plan at once for groups of up to 8 UAVs that interact strongly
+  --as-paper           the paper's method alone: the acceleration is held between the samples, constraints hold at the
+                       samples, and there is neither check nor guide nor right of way; planning takes no time
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

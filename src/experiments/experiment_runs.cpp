@@ -20,6 +20,7 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
   for (const auto& [name, value] : options.disturbances) given[name] = value;
   if (options.threads) given["threads"] = *options.threads;
   for (const std::string& parameter : options.left_out) given[parameter] = false;
+  if (options.as_paper) given["as_paper"] = true;
   return given;
 }
 

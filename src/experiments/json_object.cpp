@@ -54,6 +54,12 @@ JsonObject& JsonObject::add(const std::string& key, const std::optional<double>&
   return *this;
 }
 
+JsonObject& JsonObject::addCounts(const std::string& key, const std::vector<unsigned long long>& counts) {
+  std::string list;
+  for (const unsigned long long count : counts) list += (list.empty() ? "" : ", ") + std::to_string(count);
+  return addRaw(key, "[" + list + "]");
+}
+
 JsonObject& JsonObject::add(const std::string& key, const std::vector<std::string>& texts) {
   return addRaw(key, jsonArray(texts, jsonText));
 }

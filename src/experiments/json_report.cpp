@@ -18,6 +18,14 @@ JsonObject toObject(const Distribution& x) {
   return object;
 }
 
+JsonObject toObject(const Histogram& x) {
+  JsonObject object;
+  object.add("least", Histogram::kLeast)
+      .addCount("bins_per_decade", Histogram::kBinsPerDecade)
+      .addCounts("counts", x.counts);
+  return object;
+}
+
 JsonObject disturbances(const SimulationParameters& simulation) {
   JsonObject object;
   object.add("latency_s", simulation.latency)
@@ -107,6 +115,9 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .addCount("cycles", run.cycles)
       .add("cycle_ms", toObject(run.cycle_ms))
       .add("uav_ms", toObject(run.uav_ms))
+      .add("cycle_cpu_ms", toObject(run.cycle_cpu_ms))
+      .add("cycle_ms_histogram", toObject(run.cycle_ms_histogram))
+      .add("uav_ms_histogram", toObject(run.uav_ms_histogram))
       .add("sqp_iterations", toObject(run.sqp_iterations))
       .add("qp_iterations", toObject(run.qp_iterations))
       .addCount("kkt_nonzeros", static_cast<unsigned long long>(run.kkt_nonzeros))
@@ -130,6 +141,7 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
       .addCount("deadline_misses", run.deadline_misses)
       .add("cost", flown.cost)
       .add("disturbances", disturbances(run.simulation))
+      .addFlag("as_paper", run.as_paper)
       .add("without", run.left_out);
   addProgress(scenario, run, object);
   addFaults(run, object);

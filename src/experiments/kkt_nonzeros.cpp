@@ -48,6 +48,13 @@ RowCount countRows(const Mission& mission, std::size_t bodies) {
   return count;
 }
 
+/// Hessian and dynamics, one triangle of the latter, with the acceleration as input: its change couples neighbours.
+long long heldAccelerationEntries() {
+  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + (kHorizon - 1) * 2 * kAxes;
+  const long long dynamics = kHorizon * (6 + 6) + (kHorizon - 1) * 9;
+  return hessian + 2 * dynamics;
+}
+
 /// Of the QP of so many UAVs with these rows.
 long long nonzeros(long long uavs, const RowCount& rows) {
   const long long last_acceleration = kAxes;
@@ -61,7 +68,11 @@ long long nonzeros(long long uavs, const RowCount& rows) {
 
 long long kktNonzeros(const Mission& mission) {
   const std::size_t others = mission.scenario.uavs.empty() ? 0 : mission.scenario.uavs.size() - 1;
-  return nonzeros(1, countRows(mission, mission.scenario.obstacles.size() + others));
+  const RowCount rows = countRows(mission, mission.scenario.obstacles.size() + others);
+  if (mission.parameters.limits.as_paper) {
+    return heldAccelerationEntries() + rows.rows + 2 * (rows.entries + 2 * rows.rows);
+  }
+  return nonzeros(1, rows);
 }
 
 long long jointKktNonzeros(const Mission& mission) {

@@ -19,6 +19,18 @@ double quantile(const std::vector<double>& sorted, double q) {
 
 }  // namespace
 
+void Histogram::add(double sample) {
+  // A sample of 0, and one that is not a number, too.
+  const double bin = sample > kLeast ? std::floor(kBinsPerDecade * std::log10(sample / kLeast)) : 0.0;
+  ++counts[static_cast<std::size_t>(std::min(bin, static_cast<double>(counts.size() - 1)))];
+}
+
+Histogram histogramOf(const std::vector<double>& samples) {
+  Histogram histogram;
+  for (const double sample : samples) histogram.add(sample);
+  return histogram;
+}
+
 Distribution distributionOf(std::vector<double> samples) {
   Distribution distribution;
   if (samples.empty()) return distribution;

@@ -115,7 +115,11 @@ std::string describe(const Collision& collision, const Scenario& scenario) {
 
 std::string remarks(const Scenario& scenario, const RunResult& run) {
   std::string text;
-  for (const std::string& what : run.left_out) text += scenario.name + ": negative control, without " + what + "\n";
+  if (run.as_paper) {
+    text += scenario.name + ": the paper's method alone\n";
+  } else {
+    for (const std::string& what : run.left_out) text += scenario.name + ": negative control, without " + what + "\n";
+  }
   const std::vector<Collision>& collisions = run.flown.collisions;
   for (std::size_t i = 0; i < std::min(collisions.size(), kMostCollisionsListed); ++i) {
     text += describe(collisions[i], scenario);

@@ -15,14 +15,20 @@ KinematicState Trajectory::after(double elapsed) const {
   // Compared before the conversion to an integer: a time far from the epoch would overflow it.
   const double scaled = elapsed / dt;
   const int segment = scaled > 0.0 ? std::min(static_cast<int>(scaled), kHorizon - 1) : 0;
-  return propagate(knots[static_cast<std::size_t>(segment)], jerks[static_cast<std::size_t>(segment)],
-                   elapsed - segment * dt);
+  const auto i = static_cast<std::size_t>(segment);
+  const double since = elapsed - segment * dt;
+  if (holds_acceleration) return propagateHeld(knots[i], knots[i + 1].a, since);
+  return propagate(knots[i], jerks[i], since);
 }
 
 void rollOut(const KinematicState& start, Trajectory& trajectory) {
   trajectory.knots[0] = start;
   for (std::size_t k = 0; k < trajectory.jerks.size(); ++k) {
-    trajectory.knots[k + 1] = propagate(trajectory.knots[k], trajectory.jerks[k], trajectory.dt);
+    const KinematicState& x = trajectory.knots[k];
+    const Vector3& jerk = trajectory.jerks[k];
+    const double dt = trajectory.dt;
+    trajectory.knots[k + 1] =
+        trajectory.holds_acceleration ? propagateHeld(x, x.a + dt * jerk, dt) : propagate(x, jerk, dt);
   }
 }
 

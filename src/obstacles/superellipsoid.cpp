@@ -84,6 +84,10 @@ Superellipsoid Superellipsoid::atLevel(double level) const {
   return Superellipsoid(id_, center_, radii, exponents_, yaw_, velocity_);
 }
 
+Superellipsoid Superellipsoid::grownBy(double distance) const {
+  return Superellipsoid(id_, center_, radii_ + Vector3::Constant(distance), exponents_, yaw_, velocity_);
+}
+
 Vector3 Superellipsoid::toBody(const Vector3& u) const {
   return Vector3(cos_yaw_ * u.x() + sin_yaw_ * u.y(), cos_yaw_ * u.y() - sin_yaw_ * u.x(), u.z());
 }

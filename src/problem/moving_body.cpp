@@ -31,6 +31,10 @@ Vector3 nearestBetween(const Vector3& from, const Vector3& to) {
 
 }  // namespace
 
+double logarithmScale(const Superellipsoid& obstacle) {
+  return obstacle.radii().minCoeff() / obstacle.exponents().maxCoeff();
+}
+
 MovingBody MovingBody::fromObstacle(const Superellipsoid& obstacle, double dt, double level, double distance,
                                     const DistanceGrowth& growth) {
   MovingBody body;
@@ -81,6 +85,7 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
     const Vector3 direction = length > 1e-9 ? Vector3(shrunk / length) : apart_;
     return {scale_.cwiseProduct(direction), distance_};
   }
+  if (logarithmic_) return logarithmicHalfSpace(r);
   const Gauge gauge = obstacle_->gauge(r, level_);
   const double steepness = gauge.gradient.norm();
   // The distance to the surface lies between that to the plane and that along the line to the centre.
@@ -91,6 +96,17 @@ HalfSpace MovingBody::supportingHalfSpace(const Vector3& r) const {
     return {normal, normal.dot(r) - distance + distance_};
   }
   return {gauge.gradient / steepness, 1.0 / steepness + distance_};
+}
+
+HalfSpace MovingBody::logarithmicHalfSpace(const Vector3& r) const {
+  // At the centre ln S has a pole, and nothing leads out.
+  constexpr double kCore = 1e-6;
+  Vector3 gradient;
+  Matrix3 hessian;
+  const double sum = std::max(obstacle_->sum(r, gradient, hessian), kCore);
+  const double scale = logarithmScale(*obstacle_);
+  const Vector3 n = scale / sum * gradient;
+  return {n, n.dot(r) - scale * std::log(sum / level_)};
 }
 
 HalfSpace MovingBody::separatingHalfSpace(const SegmentPoints& relative) const {

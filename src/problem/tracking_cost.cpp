@@ -34,7 +34,7 @@ struct Deviation {
       : across(frame.horizontal.dot(x.p - frame.foot.position)),
         above(frame.vertical.dot(x.p - frame.foot.position)),
         behind(x.p - problem.targets[static_cast<std::size_t>(stage)].p),
-        at_end(stage == kHorizon),
+        at_end(stage == kHorizon && !problem.parameters->limits.as_paper),
         faster(x.v - (at_end ? Vector3(Vector3::Zero()) : problem.targets[static_cast<std::size_t>(stage)].v)),
         acceleration(x.a) {}
 
@@ -53,7 +53,7 @@ struct Deviation {
   double across;
   double above;
   Vector3 behind;
-  bool at_end;  ///< of the horizon
+  bool at_end;  ///< of the horizon, where it is to rest
   Vector3 faster;
   Vector3 acceleration;
 };
@@ -121,12 +121,13 @@ StageCost stageCost(const UavProblem& problem, int stage, const StageFrame& fram
 
 double velocityWeight(const Parameters& parameters, int stage) {
   const CostParameters& weights = parameters.cost;
-  const double weight = stage == kHorizon ? weights.stop_weight : weights.eta;
+  const bool at_end = stage == kHorizon && !parameters.limits.as_paper;
+  const double weight = at_end ? weights.stop_weight : weights.eta;
   return 2.0 * parameters.time.sampling_time * weight * weights.velocity_time * weights.velocity_time;
 }
 
 double accelerationWeight(const Parameters& parameters, int stage) {
-  if (stage != kHorizon) return 0.0;
+  if (stage != kHorizon || parameters.limits.as_paper) return 0.0;
   const double third = parameters.time.sampling_time / 3.0;
   return velocityWeight(parameters, stage) * third * third;
 }

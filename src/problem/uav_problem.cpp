@@ -68,7 +68,7 @@ FlightBounds::FlightBounds(const Parameters& parameters, const Workspace* scenar
   const VehicleParameters& vehicle = parameters.vehicle;
   max_speed = limits.max_speed;
   max_acceleration = limits.max_acceleration;
-  max_jerk = limits.max_jerk;
+  max_jerk = limits.as_paper ? kInfinity : limits.max_jerk;
   max_thrust_acceleration = limits.max_thrust_ratio * vehicle.gravity;
   min_vertical_thrust = (limits.min_thrust_ratio - 1.0) * vehicle.gravity;
   drag_over_mass = vehicle.dragOverMass();
@@ -114,7 +114,8 @@ void addBodyViolations(const UavProblem& problem, const MovingBody& body, std::s
     const bool has_plane = plane != end && plane->body == index && plane->segment == k;
     const SegmentPoints relative = relativeConstrainedPoints(problem, points, k, body);
     if (isBeyond(body, relative, 0.0)) continue;
-    const double known = has_plane ? leastClearance(plane->half_space, relative) : -kInfinity;
+    const bool is_safe = has_plane && body.halfSpacesAreSafe();
+    const double known = is_safe ? leastClearance(plane->half_space, relative) : -kInfinity;
     if (known >= 0.0) continue;
     const SegmentClearance segment = segmentClearance(body, k, relative);
     if (segment.clearance >= 0.0) continue;
@@ -155,7 +156,9 @@ Merit merit(const UavProblem& problem, const Trajectory& plan, const SegmentPlan
 }
 
 PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {
-  const double uav_radius = problem.parameters->limits.uav_radius;
+  // The paper's obstacles have grown by it.
+  const LimitParameters& limits = problem.parameters->limits;
+  const double uav_radius = limits.as_paper ? 0.0 : limits.uav_radius;
   PredictedClearance least{kInfinity, kInfinity};
   for (const MovingBody& body : problem.bodies) {
     for (int k = 0; k <= kHorizon; ++k) {

@@ -25,6 +25,7 @@ GeneratedParameters generatedParameters(const QpModel& model) {
   parameters.drag = model.drag_over_mass;
   parameters.slack_linear = model.slack_linear;
   parameters.slack_quadratic = model.slack_quadratic;
+  parameters.held = model.holds_acceleration ? 1.0 : 0.0;
   return parameters;
 }
 

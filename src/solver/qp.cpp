@@ -23,7 +23,7 @@ bool QpModel::operator==(const QpModel& other) const {
          velocity_weight == other.velocity_weight && final_velocity_weight == other.final_velocity_weight &&
          final_acceleration_weight == other.final_acceleration_weight && jerk_weight == other.jerk_weight &&
          drag_over_mass == other.drag_over_mass && slack_linear == other.slack_linear &&
-         slack_quadratic == other.slack_quadratic;
+         slack_quadratic == other.slack_quadratic && holds_acceleration == other.holds_acceleration;
 }
 
 void Qp::setModel(const QpModel& new_model) {

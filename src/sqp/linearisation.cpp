@@ -179,6 +179,7 @@ QpModels makeQpModels(const Parameters& parameters) {
   model.drag_over_mass = parameters.vehicle.dragOverMass().mean();
   model.slack_linear = parameters.sqp.slack_linear;
   model.slack_quadratic = parameters.sqp.slack_quadratic;
+  model.holds_acceleration = parameters.limits.as_paper;
   QpModels models{model, model};
   models.corner.along_weight = model.across_weight;
   return models;

@@ -54,6 +54,7 @@ QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, i
   const QpStatus status = qp_solver_->solve(*qp_, *solution_);
   Trajectory& answer = answers_[static_cast<std::size_t>(iteration)];
   answer.dt = plan.dt;
+  answer.holds_acceleration = plan.holds_acceleration;
   answer.jerks = solution_->jerks;
   rollOut(problem.start, answer);
   return status;

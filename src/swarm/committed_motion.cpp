@@ -20,7 +20,16 @@ void CommittedMotion::assign(const Trajectory& plan, const StopManoeuvre& stop) 
   epoch_ = plan.epoch;
   dt_ = plan.dt;
   pieces_ = 0;
-  appendPieces(plan.knots.data(), kHorizon);
+  if (plan.holds_acceleration) {
+    // Each piece begins with the acceleration that it holds.
+    for (std::size_t k = 0; k < kHorizon; ++k) {
+      const KinematicState& x = plan.knots[k];
+      const std::array<KinematicState, 2> ends{KinematicState{x.p, x.v, plan.knots[k + 1].a}, plan.knots[k + 1]};
+      appendPieces(ends.data(), 1);
+    }
+  } else {
+    appendPieces(plan.knots.data(), kHorizon);
+  }
   appendPieces(stop.knots.data(), stop.stages);
   finish();
 }

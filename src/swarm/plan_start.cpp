@@ -32,9 +32,11 @@ void shiftPlan(const CommittedMotion& committed, const KinematicState& start, do
                Trajectory& plan) {
   plan.epoch = epoch;
   plan.dt = dt;
+  // Where the acceleration is held, that of each stage is the one in its middle.
+  const double end = plan.holds_acceleration ? 0.5 : 1.0;
   Vector3 acceleration = start.a;
   for (std::size_t k = 0; k < kHorizon; ++k) {
-    const Vector3 next = committed.at(epoch + static_cast<double>(k + 1) * dt).a;
+    const Vector3 next = committed.at(epoch + (static_cast<double>(k) + end) * dt).a;
     plan.jerks[k] = (next - acceleration) / dt;
     acceleration = next;
   }

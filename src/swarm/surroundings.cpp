@@ -20,8 +20,10 @@ void include(Box& box, const Box& other) {
 
 Surroundings::Surroundings(const Parameters& parameters, std::size_t uav_count, std::size_t max_obstacles)
     : parameters_(parameters),
-      horizontal_(parameters.limits.pair_distance + parameters.limits.pair_margin),
-      vertical_(parameters.limits.pair_distance_vertical + parameters.limits.pair_margin),
+      obstacle_margin_(parameters.limits.as_paper ? 0.0 : parameters.limits.tracking_margin),
+      pair_margin_(parameters.limits.as_paper ? 0.0 : parameters.limits.pair_margin),
+      horizontal_(parameters.limits.pair_distance + pair_margin_),
+      vertical_(parameters.limits.pair_distance_vertical + pair_margin_),
       motions_(uav_count),
       predictions_(uav_count),
       areas_(uav_count) {
@@ -52,7 +54,9 @@ void Surroundings::addObstacle(const Superellipsoid& shape, double stamp, const 
   const double at_epoch = inflation.at(age);
   const DistanceGrowth growth{inflation.growth_rate * parameters_.time.sampling_time,
                               inflation.at(inflation.growth_time) - at_epoch};
-  obstacles_.push_back({shape.movedBy(age), at_epoch, growth});
+  const Superellipsoid now = shape.movedBy(age);
+  // (7) has no distance to keep but what is in the radii.
+  obstacles_.push_back({limits.as_paper ? now.grownBy(limits.uav_radius) : now, at_epoch, growth});
   checked_obstacles_.push_back(predictObstacle(shape, stamp, inflation, limits.uav_radius + limits.tracking_error));
 }
 
@@ -147,7 +151,8 @@ void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
 
 void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const {
   const double level = std::exp(parameters_.cost.epsilon_s);
-  const double distance = parameters_.limits.uav_radius + parameters_.limits.tracking_margin;
+  const bool as_paper = parameters_.limits.as_paper;
+  const double distance = as_paper ? 0.0 : parameters_.limits.uav_radius + obstacle_margin_;
   // The robustness function reaches as far as S = r_b, at most sqrt(r_b) radii.
   const double halo = std::sqrt(parameters_.cost.robustness_outer) - 1.0;
   for (const PredictedTrack& track : obstacles_) {
@@ -155,7 +160,8 @@ void Surroundings::collectObstacles(const Box& reach, UavProblem& problem) const
     MovingBody body = MovingBody::fromObstacle(obstacle, problem.dt, level, distance + track.inflation, track.growth);
     if (!body.box().near(reach, halo * obstacle.halfExtents().maxCoeff())) continue;
     if (problem.is_guided) body.setPrecise();
-    body.relieve(problem.start.p - obstacle.center(), parameters_.limits.tracking_margin);
+    if (as_paper) body.setLogarithmic();
+    body.relieve(problem.start.p - obstacle.center(), obstacle_margin_);
     body.setIdentity(2 * static_cast<std::uint32_t>(obstacle.id()));
     problem.bodies.push_back(body);
   }
@@ -184,7 +190,7 @@ void Surroundings::addUav(std::size_t uav, std::uint32_t other, const PredictedM
   const DistanceGrowth growth{doubt.rate * parameters_.time.sampling_time, doubt.limit - now};
   MovingBody body = MovingBody::fromUav(motion, horizontal, vertical,
                                         uav < other ? Vector3(Vector3::UnitX()) : Vector3(-Vector3::UnitX()), growth);
-  body.relieve(problem.start.p - motion.point(0, 0), parameters_.limits.pair_margin + now);
+  body.relieve(problem.start.p - motion.point(0, 0), pair_margin_ + now);
   body.setIdentity(identity);
   problem.bodies.push_back(body);
 }

@@ -41,6 +41,7 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
   check_.obstacles.reserve(max_bodies);
   check_.uavs.reserve(2 * max_bodies);
   detour_.path = ReferencePath({Vector3::Zero(), Vector3::UnitX()});
+  plan_.holds_acceleration = shifted_.holds_acceleration = parameters.limits.as_paper;
 }
 
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {

@@ -13,6 +13,7 @@ namespace {
 constexpr double kBoundSlack = 0.1;     // of a bound, by which a measured start may exceed it
 constexpr double kMoved = 0.5;          // a UAV at rest that is so far from its place has been moved [m]
 constexpr double kDeviationGain = 0.2;  // of a new measurement in the mean deviation
+constexpr double kBefore = 1e-6;        // an instant before another [s]
 constexpr double kLostMargins = 2.0;    // tracking margins by which a lost setpoint shows
 
 /// A UAV measured farther from its motion than this is not on it [m]: neither tracking nor noise explains that.
@@ -99,7 +100,9 @@ void UavRecord::predictStart(const UavMeasurement& measurement, double epoch, co
   }
   if (!parameters.limits.latency_compensation) {
     // Odometry has no acceleration: without that of the motion it would begin at zero in every cycle.
-    start = {measurement.p, measurement.v, motions.flown().at(epoch).a};
+    // As in the paper it jumps at the epoch: what counts is that before.
+    const double before = parameters.limits.as_paper ? kBefore : 0.0;
+    start = {measurement.p, measurement.v, motions.flown().at(epoch - before).a};
     return;
   }
   // At once if it is far off; if it is off by less, but for long, it may hover while its motions leave.

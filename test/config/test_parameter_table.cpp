@@ -39,6 +39,7 @@ const Place kPlaces[] = {
     {"guide", false, [](const Parameters& p) -> ParameterValue { return p.limits.guide; }},
     {"latency_compensation", false,
      [](const Parameters& p) -> ParameterValue { return p.limits.latency_compensation; }},
+    {"as_paper", true, [](const Parameters& p) -> ParameterValue { return p.limits.as_paper; }},
     {"sampling_time", 0.21, [](const Parameters& p) -> ParameterValue { return p.time.sampling_time; }},
     {"cycle_period", 0.22, [](const Parameters& p) -> ParameterValue { return p.time.cycle_period; }},
     {"alpha", 0.51, [](const Parameters& p) -> ParameterValue { return p.cost.alpha; }},

@@ -62,6 +62,11 @@ TEST(ExperimentOptions, LeavesOutWhatIsNamedWithCommasOrInTurn) {
   EXPECT_TRUE(parseExperimentOptions({"circle_swap"}).left_out.empty());
 }
 
+TEST(ExperimentOptions, FliesThePapersMethodWhereAsked) {
+  EXPECT_TRUE(parseExperimentOptions({"monte_carlo", "--as-paper"}).as_paper);
+  EXPECT_FALSE(parseExperimentOptions({"monte_carlo"}).as_paper);
+}
+
 TEST(ExperimentOptions, FliesSixUavsAmongEightMovingObstacles) {
   const ExperimentOptions options = parseExperimentOptions({"moving_obstacles"});
   EXPECT_EQ(options.command, ExperimentCommand::kMovingObstacles);

@@ -101,6 +101,34 @@ TEST(KktNonzeros, HasNoRowBetweenTheSamplesWhereConstraintsHoldAtTheKnots) {
   EXPECT_EQ(kktNonzeros(mission), count.total());
 }
 
+/// Entries of the dynamics' columns, counted by moving one variable after the other.
+TEST(KktNonzeros, WithThePapersMethodCountsItsVariables) {
+  Mission mission;
+  mission.parameters.limits.segment_constraints = false;
+  mission.parameters.limits.as_paper = true;
+  mission.scenario.uavs.resize(1);
+  long long count = 0;
+  for (int k = 0; k < kHorizon; ++k) {
+    for (int column = 0; column < 9; ++column) {
+      KinematicState x;
+      Vector3 a = Vector3::Zero();
+      (column < 3 ? x.p : column < 6 ? x.v : a)(column % 3) = 1.0;
+      if (k == 0 && column < 6) continue;
+      const KinematicState next = propagateHeld(x, a, 0.3);
+      for (const Vector3& part : {next.p, next.v}) count += 2 * (part.array() != 0.0).count();
+    }
+    count += 2 * 6;             // x_{k+1} itself
+    count += 9 + 3 + 3;         // weights of p, v, and of a with its change
+    if (k > 0) count += 2 * 3;  // the change, on either side of the diagonal
+    count += 2 * (3 + 2) + 1;   // speed
+    count += 2 * (6 + 2) + 1;   // most thrust
+    count += 2 * (2 + 2) + 1;   // least thrust
+  }
+  EXPECT_EQ(kktNonzeros(mission), count);
+  mission.scenario.obstacles.resize(1);
+  EXPECT_EQ(kktNonzeros(mission), count + kHorizon * (2 * (3 + 2) + 1));
+}
+
 TEST(KktNonzeros, GrowsByTheSameForEveryUavOrObstacle) {
   Mission mission;
   mission.scenario.uavs.resize(1);

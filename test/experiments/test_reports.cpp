@@ -64,6 +64,10 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "mode",
                                       "cycles",
                                       "cycle_ms",
+                                      "cycle_cpu_ms",
+                                      "cycle_ms_histogram",
+                                      "uav_ms_histogram",
+                                      "as_paper",
                                       "uav_ms",
                                       "sqp_iterations",
                                       "qp_iterations",
@@ -225,6 +229,16 @@ TEST(Statistics, MedianAndPercentilesLieBetweenTheRanks) {
   EXPECT_DOUBLE_EQ(distribution.max, 100.0);
   EXPECT_DOUBLE_EQ(distributionOf({4.0, 1.0, 3.0, 2.0}).median, 2.5);
   EXPECT_DOUBLE_EQ(distributionOf({}).max, 0.0);
+}
+
+TEST(Statistics, HistogramsCountEverySampleOnce) {
+  const Histogram histogram = histogramOf({0.0, 1e-4, 0.00101, 0.5, 0.5, 2.0, 1e9, std::nan("")});
+  EXPECT_EQ(std::accumulate(histogram.counts.begin(), histogram.counts.end(), 0ULL), 8u);
+  EXPECT_EQ(histogram.counts.front(), 4u) << "0, too little, the first bin's own, and what is no number";
+  EXPECT_EQ(histogram.counts.back(), 1u);
+  const auto bin =
+      static_cast<std::size_t>(std::floor(Histogram::kBinsPerDecade * std::log10(0.5 / Histogram::kLeast)));
+  EXPECT_EQ(histogram.counts[bin], 2u);
 }
 
 TEST(AtomicFile, IsThereCompleteOrNotAtAll) {

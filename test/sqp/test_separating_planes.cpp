@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -81,6 +82,37 @@ TEST_F(SeparatingPlanesTest, AreThoseOfTheNearestBodies) {
     }
   }
   EXPECT_GT(dropped, 5000);
+}
+
+/// The planes of a flight straight past a UAV at rest that comes as close to it as `share` of what they keep.
+SegmentPlanes planesPast(double share) {
+  FlightProblem flight(kLine, 1.0, {Vector3(0, 0, 10), Vector3(2.0, 0.0, 0.0), Vector3::Zero()});
+  const LimitParameters& limits = flight.parameters.limits;
+  const double distance = share * (limits.pair_distance + limits.pair_margin);
+  flight.addUav(straightPlan(Vector3(6.0, distance, 10.0), Vector3::Zero(), 0.0, flight.problem.dt));
+  const Trajectory plan = straightPlan(flight.problem.start.p, flight.problem.start.v, 0.0, flight.problem.dt);
+  SegmentPlanes planes;
+  planes.reserve(kSegmentPlaneRoom);
+  findSeparatingPlanes(flight.problem, plan, 1.0, planes);
+  return planes;
+}
+
+/// The largest angle between a violated plane's normal and that of the nearest way out, which is across the flight.
+double largestTurn(const SegmentPlanes& planes, const Vector3& out) {
+  double largest = 0.0;
+  for (const SegmentPlane& plane : planes) {
+    if (plane.clearance < 0.0) largest = std::max(largest, std::acos(std::min(1.0, plane.half_space.n.dot(out))));
+  }
+  return largest;
+}
+
+// The plane of another way past would be violated by metres: the solver got stuck on plans that lean on a body.
+TEST_F(SeparatingPlanesTest, OfAPlanThatLeansOnABodyAreTheNearest) {
+  constexpr double kSmall = 0.35;  // [rad]
+  const SegmentPlanes leaning = planesPast(0.99);
+  EXPECT_TRUE(std::any_of(leaning.begin(), leaning.end(), [](const SegmentPlane& p) { return p.clearance < 0.0; }));
+  EXPECT_LT(largestTurn(leaning, -Vector3::UnitY()), kSmall);
+  EXPECT_GT(largestTurn(planesPast(0.3), -Vector3::UnitY()), kSmall) << "one that leads through it needs another way";
 }
 
 // An answer that keeps the planes left out, too, is the answer of the QP with all of them.

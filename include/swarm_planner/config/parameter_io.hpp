@@ -56,6 +56,8 @@ ParameterMap parseParameterFile(const std::string& path, bool require_all, Fault
 ///   pair_margin = a tenth of pair_distance, at most 0.2, and at least tracking_margin
 ///   tracking_error = half of tracking_margin, at most a quarter of pair_margin
 ///   setpoint_repeats = 1 where simulated links lose messages (drop > 0), otherwise 0
+/// With as_paper: plan_check, segment_constraints, guide, right_of_way and latency_compensation are false, whatever is
+/// given.
 Parameters resolveParameters(const ParameterMap& given, const std::map<std::string, double>& overrides,
                              const std::string& overrides_source, Faults& faults);
 

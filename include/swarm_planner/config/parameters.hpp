@@ -50,6 +50,9 @@ struct LimitParameters {
   bool guide = true;                 ///< ways round what blocks references are searched
   bool right_of_way = true;          ///< UAVs give way to each other where none gets on
   bool latency_compensation = true;  ///< the age of measurements and the time until plans begin are allowed for
+
+  bool as_paper =
+      false;  ///< the paper's method alone, for comparison: see doc/experiments.md; the five above are false
 };
 
 /// How UAVs land.

@@ -42,6 +42,7 @@ class RunDirector {
 /// Sensors measure at the instants of SensorClock; every message goes over a MessageLink of its own kind and UAV. Every
 /// cycle_period the planner gets a snapshot of what has arrived (the newest odometry of each vehicle, the newest tracks
 /// of the obstacles) and plans for the epoch one cycle_period later: what one cycle computes is flown from the next on.
+/// With as_paper planning takes no time: it plans for the instant of the snapshot.
 /// Plans are sampled at kSetpointPeriod and sent to the vehicles, setpoint_repeats times more before the next cycle.
 /// The first epoch is t = 0: obstacles are at their start and targets begin to move then. The vehicles hover from t =
 /// -cycle_period on, where gusts set in; before that they stand at their start while the first messages are under way.
@@ -102,6 +103,7 @@ class ClosedLoopRun {
 
   RunResult result_;
   std::vector<double> cycle_ms_;
+  std::vector<double> cycle_cpu_ms_;
   std::vector<double> uav_ms_;
   std::vector<double> sqp_iterations_;
   std::vector<double> qp_iterations_;

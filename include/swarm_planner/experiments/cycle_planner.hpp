@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "swarm_planner/experiments/processor_clock.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
@@ -18,6 +19,8 @@ class CyclePlanner {
   virtual const CommittedMotion& committed(std::size_t uav) const = 0;
   /// Goes on as a new process would that knows the mission alone. A planner without memory has nothing to forget.
   virtual void restart() {}
+  /// Processor time of this thread that the last cycle took [s]; 0 where nobody measures it.
+  virtual double processorTime() const { return 0.0; }
 };
 
 /// Problem 2, one UAV after the other, or Problem 1, all at once.
@@ -30,10 +33,14 @@ class SwarmCyclePlanner : public CyclePlanner {
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
     // Guides of one cycle are used in the next, whatever their search takes: a run can be repeated.
     planner_.searchGuides();
-    return planner_.plan(snapshot, epoch);
+    const ProcessorClock clock;
+    const CycleReport& report = planner_.plan(snapshot, epoch);
+    processor_time_ = clock.elapsed();
+    return report;
   }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
   void restart() override { planner_ = SwarmPlanner(mission_, mode_); }
+  double processorTime() const override { return processor_time_; }
 
   /// See SwarmPlanner::setReference().
   void setReference(std::size_t uav, const std::vector<Vector3>& path, double start, double speed) {
@@ -46,6 +53,7 @@ class SwarmCyclePlanner : public CyclePlanner {
   const Mission& mission_;
   PlanningMode mode_;
   SwarmPlanner planner_;
+  double processor_time_ = 0.0;
 };
 
 /// Problem 2.

@@ -59,6 +59,7 @@ struct ExperimentOptions {
   std::optional<int> threads;                    ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;
+  bool as_paper = false;  ///< the paper's method alone
   std::optional<std::string> parameter_file;
   std::optional<std::string> json_file;
   std::optional<std::string> csv_directory;

@@ -21,6 +21,7 @@ class JsonObject {
   /// null if empty; JSON knows neither NaN nor infinity: they are null, too.
   JsonObject& add(const std::string& key, const std::optional<double>& number);
   JsonObject& addCount(const std::string& key, unsigned long long count);
+  JsonObject& addCounts(const std::string& key, const std::vector<unsigned long long>& counts);
   JsonObject& add(const std::string& key, const std::vector<std::string>& texts);
   JsonObject& add(const std::string& key, const std::vector<JsonObject>& objects);
   JsonObject& addFlag(const std::string& key, bool flag);

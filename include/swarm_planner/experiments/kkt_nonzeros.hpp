@@ -17,6 +17,10 @@ namespace swarm_planner {
 ///   A: x_{k+1} = propagate(x_k, u_k): 9 for x_{k+1}, 9 for u_k and, but for the known x_0, 18 for x_k;
 ///   G: n . y + s >= d and s >= 0, where y is made of up to three parts of the state: 3 entries per part that it has
 ///      (1 where n is an axis), 1 for the slack, 1 for its sign.
+///
+/// With as_paper the variables are the paper's, x = (p, v) and u = a held between the stages: H has 3 per stage for the
+/// input and 3 on either side of the diagonal for its change between neighbours; A has 6 for x_{k+1}, 6 for u_k and,
+/// but for the known x_0, 9 for x_k.
 long long kktNonzeros(const Mission& mission);
 
 /// The same of the QP of all UAVs at once: each with its own dynamics, cost and rows, and a row for each pair of them

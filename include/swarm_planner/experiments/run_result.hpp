@@ -23,10 +23,14 @@ struct RunResult {
   std::size_t uavs = 0;
   PlanningMode mode = PlanningMode::kIterative;
   SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
+  bool as_paper = false;              ///< the paper's method alone
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
-  Distribution cycle_ms;                         ///< planning of the whole swarm, snapshot in to plans out [ms]
-  Distribution uav_ms;                           ///< planning of one UAV [ms]
+  Distribution cycle_ms;  ///< planning of the whole swarm, snapshot in to plans out [ms]
+  Distribution uav_ms;    ///< planning of one UAV [ms]
+  Distribution cycle_cpu_ms;  ///< processor time of the same, of the thread that calls the planner [ms]
+  Histogram cycle_ms_histogram;
+  Histogram uav_ms_histogram;
   MeanMax sqp_iterations;                        ///< per UAV and cycle
   MeanMax qp_iterations;                         ///< per UAV and cycle, all QPs together
   long long kkt_nonzeros = 0;                    ///< see kkt_nonzeros.hpp

@@ -17,4 +17,18 @@ struct Distribution {
 /// two nearest ranks: rank q (n - 1) of the sorted samples, counted from 0.
 Distribution distributionOf(std::vector<double> samples);
 
+/// How many samples fall into bins of equal width on a logarithmic scale: of runs of any length, and they add up.
+struct Histogram {
+  static constexpr double kLeast = 1e-3;  ///< lower end of bin 0; what is less is in it, too
+  static constexpr int kBinsPerDecade = 20;
+  static constexpr int kDecades = 6;
+
+  std::vector<unsigned long long> counts = std::vector<unsigned long long>(kBinsPerDecade * kDecades, 0);
+
+  /// Samples beyond the last bin are in it.
+  void add(double sample);
+};
+
+Histogram histogramOf(const std::vector<double>& samples);
+
 }  // namespace swarm_planner

@@ -22,4 +22,10 @@ inline KinematicState propagate(const KinematicState& x, const Vector3& jerk, do
   return next;
 }
 
+/// The same under constant acceleration `a`: (2) as the paper discretises it. The state's own acceleration is that of
+/// the interval before.
+inline KinematicState propagateHeld(const KinematicState& x, const Vector3& a, double dt) {
+  return {x.p + dt * (x.v + 0.5 * dt * a), x.v + dt * a, a};
+}
+
 }  // namespace swarm_planner

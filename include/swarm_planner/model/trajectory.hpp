@@ -11,9 +11,13 @@ namespace swarm_planner {
 constexpr int kHorizon = 20;
 
 /// A plan: cubic position polynomials between kHorizon + 1 equidistant knots.
+///
+/// With `holds_acceleration` it is the paper's: the acceleration is constant between the knots and jumps at each by dt
+/// times the "jerk", whose square is then the change of the control in (16). A knot's acceleration is that before it.
 struct Trajectory {
-  double epoch = 0.0;  ///< time of the first knot [s]
-  double dt = 0.0;     ///< between knots [s]
+  double epoch = 0.0;               ///< time of the first knot [s]
+  double dt = 0.0;                  ///< between knots [s]
+  bool holds_acceleration = false;  ///< as_paper
   std::array<KinematicState, kHorizon + 1> knots;
   std::array<Vector3, kHorizon> jerks;
 

@@ -42,6 +42,10 @@ class Superellipsoid {
   /// The body that the surface S = `level` >= 1 of this one encloses: |x / (level^(1/px) a)|^px and so on.
   Superellipsoid atLevel(double level) const;
 
+  /// The body with all radii longer by `distance` [m]. Nearly everything within that distance of this one is in it; not
+  /// all, where a flank is flat and the rest is not (doc/equations.md).
+  Superellipsoid grownBy(double distance) const;
+
   /// S of (7), the sum inside the logarithm, |.|^p term by term. `u`: point minus centre [m].
   /// Infinite where it exceeds the range of double (far away with large exponents).
   double sum(const Vector3& u) const;

@@ -24,6 +24,9 @@ struct DistanceGrowth {
   double limit = 0.0;  ///< growth ends here
 };
 
+/// By which ln S of (7) is multiplied so that a metre at the surface counts for a metre about [m].
+double logarithmScale(const Superellipsoid& obstacle);
+
 /// Something that a UAV keeps clear of over its horizon: an obstacle, eq. (7), or another UAV's plan, eq. (14).
 /// Both are a convex set about a reference point that moves along known control points.
 class MovingBody {
@@ -64,6 +67,13 @@ class MovingBody {
   /// its centre: round the edge of a thin wall the latter do not lead. Takes longer.
   void setPrecise() { precise_ = true; }
 
+  /// From now on the half-spaces of an obstacle are those that the paper has: the first-order Taylor approximation of
+  /// (7), ln S >= eps_s, times a length that makes it comparable to metres at the surface. Far from the obstacle they
+  /// cut into it. The distance to keep has no part in them: it has to be in the obstacle's radii.
+  void setLogarithmic() { logarithmic_ = obstacle_ != nullptr; }
+  /// Whether whatever lies in a half-space is clear of the body: only setLogarithmic() takes that away.
+  bool halfSpacesAreSafe() const { return !logarithmic_; }
+
   /// A half-space whose boundary supports the set, grown by the distance to keep at the horizon's start, towards `r`.
   /// Whatever lies in it is clear of the body then.
   HalfSpace supportingHalfSpace(const Vector3& r) const;
@@ -83,6 +93,8 @@ class MovingBody {
  private:
   static constexpr int kReliefStages = 5;
 
+  HalfSpace logarithmicHalfSpace(const Vector3& r) const;
+
   const Superellipsoid* obstacle_ = nullptr;
   const PredictedMotion* motion_ = nullptr;
   Vector3 step_ = Vector3::Zero();  ///< of an obstacle's centre per stage [m]
@@ -95,6 +107,7 @@ class MovingBody {
   Vector3 extent_ = Vector3::Zero();
   double radius_ = 0.0;
   double relief_ = 0.0;
+  bool logarithmic_ = false;
   Vector3 apart_ = Vector3::UnitX();
   Box box_;
 };

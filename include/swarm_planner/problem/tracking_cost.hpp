@@ -25,8 +25,8 @@ void findStageFrames(const UavProblem& problem, const Trajectory& plan, StageFra
 /// stage the velocity is not held against the target's but, with the acceleration, against rest, so that a plan ends
 /// nearly at rest and the stop behind it is short: instead of eta's velocity term there stands, times dt,
 ///   stop_weight velocity_time^2 (|v_N|^2 + (dt / 3)^2 |a_N|^2).
-/// The shortest stop takes two stages and goes dt (v_N + dt / 3 a_N): both count for as far as they carry.
-/// The gradient in the acceleration is accelerationWeight a.
+/// The shortest stop takes two stages and goes dt (v_N + dt / 3 a_N): both count for as far as they carry. With
+/// as_paper the last stage is like the others, as in (16). The gradient in the acceleration is accelerationWeight a.
 struct StageCost {
   double value = 0.0;
   Vector3 position_gradient = Vector3::Zero();

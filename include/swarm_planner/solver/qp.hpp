@@ -65,7 +65,8 @@ struct QpStage {
 };
 
 /// The quadratic program of one UAV: minimise the stages' costs with the model's constant weights over the jerks
-/// j_0..j_{N-1}, x_{k+1} = propagate(x_k, j_k, dt), x_0 given. Always feasible since every row is soft.
+/// j_0..j_{N-1}, x_{k+1} = propagate(x_k, j_k, dt), or propagateHeld(x_k, x_k.a + dt j_k, dt) with the model's
+/// holds_acceleration, x_0 given. Always feasible since every row is soft.
 struct Qp {
   QpModel model;
   std::array<OutputGains, kOutputCount> outputs;  ///< the model's

@@ -46,6 +46,7 @@ struct QpModel {
   double drag_over_mass = 0.0;             ///< of the thrust output [1/s]
   double slack_linear = 0.0;               ///< > 0
   double slack_quadratic = 0.0;            ///< > 0
+  bool holds_acceleration = false;         ///< of the dynamics: Trajectory::holds_acceleration
 
   /// Weights of 1/2 |v|^2 and 1/2 |a|^2 at stage 1..N.
   double velocityWeight(int stage) const { return stage == kHorizon ? final_velocity_weight : velocity_weight; }

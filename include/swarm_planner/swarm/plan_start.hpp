@@ -25,6 +25,7 @@ KinematicState carryDeviation(const KinematicState& planned, const KinematicStat
                               const UavMeasurement& measurement, double epoch, const InputParameters& parameters);
 
 /// Warm start: the accelerations of `committed` on the stages of a horizon that begins with `start` at `epoch`.
+/// plan.holds_acceleration says how they are to be flown.
 void shiftPlan(const CommittedMotion& committed, const KinematicState& start, double epoch, double dt,
                Trajectory& plan);
 

@@ -98,6 +98,8 @@ class Surroundings {
               const Box& reach, UavProblem& problem) const;
 
   const Parameters& parameters_;
+  double obstacle_margin_;  ///< kept on top of the distances [m]
+  double pair_margin_;
   double horizontal_;  ///< semi-axes of the pair ellipsoid with the tracking margin [m]
   double vertical_;
   double epoch_ = 0.0;  ///< of the cycle [s]
