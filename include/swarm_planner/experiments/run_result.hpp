@@ -26,8 +26,8 @@ struct RunResult {
   bool as_paper = false;              ///< the paper's method alone
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
-  Distribution cycle_ms;  ///< planning of the whole swarm, snapshot in to plans out [ms]
-  Distribution uav_ms;    ///< planning of one UAV [ms]
+  Distribution cycle_ms;      ///< planning of the whole swarm, snapshot in to plans out [ms]
+  Distribution uav_ms;        ///< planning of one UAV [ms]
   Distribution cycle_cpu_ms;  ///< processor time of the same, of the thread that calls the planner [ms]
   Histogram cycle_ms_histogram;
   Histogram uav_ms_histogram;
