@@ -160,7 +160,8 @@ HEAD = """# The paper's study, measured
 
 Made by `scripts/paper`; do not edit. *Paper*: the numbers that the paper gives, from its 1.8 GHz laptop. *The paper's
 method*: its method alone as flown here (`--as-paper`, [experiments.md](../experiments.md#as-the-paper-has-it)). *Ours*: the
-planner as shipped. Times are wall-clock times of one thread on {processor}, whatever else ran there.
+planner as shipped. Times are wall-clock times of one thread on {processor}; where other programs shared the processors,
+jumps of 4 ms and more are theirs, and processor time is what to go by.
 """
 
 NOTES = {

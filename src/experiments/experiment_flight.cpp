@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "swarm_planner/experiments/fault_watch.hpp"
+#include "swarm_planner/experiments/kkt_nonzeros.hpp"
 #include "swarm_planner/experiments/random_missions.hpp"
 
 namespace swarm_planner {
@@ -44,7 +45,7 @@ class MemoryWatch : public RunObserver {
 
 RunResult flyExperimentRun(const ExperimentRun& run, std::vector<RunObserver*> observers) {
   const Mission& mission = run.mission;
-  IterativePlanner planner(mission);
+  SwarmCyclePlanner planner(mission, run.mode);
   ClosedLoopRun flight(mission, planner, run.seed);
   FaultWatch watch(mission, planner);
   if (!mission.scenario.faults.empty()) observers.push_back(&watch);
@@ -52,6 +53,8 @@ RunResult flyExperimentRun(const ExperimentRun& run, std::vector<RunObserver*> o
     RunResult result = flight.fly(observers);
     result.faults = watch.summary();
     result.bounds = flightBounds(mission, run.shortest_paths);
+    result.mode = run.mode;
+    if (run.mode == PlanningMode::kJoint) result.kkt_nonzeros = jointKktNonzeros(mission);
     return result;
   }
   RandomMissions missions(mission, *run.goals, planner, run.seed);

@@ -88,6 +88,7 @@ struct CommandInfo {
 
 const std::map<std::string, CommandInfo> kCommands = {
     {"fly", {ExperimentCommand::kFly, {}}},
+    {"compare", {ExperimentCommand::kCompare, {}}},
     {"monte_carlo", {ExperimentCommand::kMonteCarlo, {6}}},
     {"scaling", {ExperimentCommand::kScaling, {6, 16, 32, 64}}},
     {"circle_swap", {ExperimentCommand::kCircleSwap, {10}}},
@@ -123,6 +124,9 @@ class Parser {
  private:
   /// "--key=value" as "--key" "value".
   static std::vector<std::string> splitEquals(const std::vector<std::string>& arguments);
+  bool takesScenarios() const {
+    return options_.command == ExperimentCommand::kFly || options_.command == ExperimentCommand::kCompare;
+  }
   bool atEnd() const { return next_ == arguments_.size(); }
   std::string value(const std::string& option);
   std::vector<std::string> values(const std::string& option);
@@ -155,7 +159,7 @@ ExperimentOptions Parser::parse() {
       if (again && argument != "--without") throw OptionError(argument + ": given twice");
       seen_.push_back(argument);
       readOption(argument);
-    } else if (options_.command == ExperimentCommand::kFly) {
+    } else if (takesScenarios()) {
       options_.scenario_files.push_back(argument);
     } else {
       throw OptionError("unexpected argument \"" + argument + "\"");
@@ -242,8 +246,10 @@ void Parser::leaveOut(const std::string& names) {
 }
 
 void Parser::readStudyOption(const std::string& option) {
-  static const std::vector<std::string> kNotYet = {"--joint"};
-  if (option == "--uavs") {
+  if (option == "--joint" || option == "--groups") {
+    if (options_.command == ExperimentCommand::kCompare) throw OptionError(option + ": does not go with this command");
+    options_.mode = option == "--joint" ? PlanningMode::kJoint : PlanningMode::kGroups;
+  } else if (option == "--uavs") {
     if (default_uavs_.empty()) throw OptionError(option + ": does not go with this command");
     for (const std::string& count : values(option)) {
       options_.uavs.push_back(static_cast<int>(wholeNumber(option, count, 1, kMostUavs)));
@@ -268,8 +274,6 @@ void Parser::readStudyOption(const std::string& option) {
   } else if (option == "--obstacles") {
     requireCommand(option, {ExperimentCommand::kMovingObstacles});
     options_.obstacles = static_cast<int>(wholeNumber(option, value(option), 1, kMostObstacles));
-  } else if (std::find(kNotYet.begin(), kNotYet.end(), option) != kNotYet.end()) {
-    throw OptionError(option + ": not supported yet");
   } else {
     throw OptionError("unknown option " + option);
   }
@@ -280,12 +284,16 @@ void Parser::check() {
   const auto given = [this](const char* option) {
     return std::find(seen_.begin(), seen_.end(), option) != seen_.end();
   };
+  const bool iterative = options_.mode == PlanningMode::kIterative && options_.command != ExperimentCommand::kCompare;
+  if (options_.as_paper && !iterative) throw OptionError("--as-paper: does not go with Problem 1");
   if (given("--seed") && given("--seeds")) throw OptionError("--seed and --seeds: give one of them");
+  if (given("--joint") && given("--groups")) throw OptionError("--joint and --groups: give one of them");
   if (given("--scenarios") && given("--seeds")) throw OptionError("--scenarios and --seeds: give one of them");
   if (options_.command == ExperimentCommand::kFly) {
     if (options_.scenario_files.empty()) throw OptionError("fly: no scenario file given");
     return;
   }
+  if (options_.command == ExperimentCommand::kCompare && !options_.scenario_files.empty()) return;
   if (options_.seeds.empty()) options_.seeds = {0};
   if (options_.uavs.empty()) options_.uavs = default_uavs_;
   if (options_.command == ExperimentCommand::kScaling) return;
@@ -307,6 +315,8 @@ Flies the swarm closed loop, planner and simulated vehicles, without ROS, and me
 
 commands:
   fly SCENARIO.yaml [SCENARIO.yaml ...]   the given scenario files
+  compare [SCENARIO.yaml ...]             Problem 1, all UAVs at once, against Problem 2, one after the other;
+                                          without a file: section 4 of the paper
   monte_carlo [--scenarios 100] [--uavs 6]
                                           random obstacles as in section 4.1 of the paper
   scaling [--uavs 6 16 32 64]             growing swarms as in section 4.2 of the paper
@@ -342,6 +352,8 @@ options:
                          right_of_way  no UAV gives way where several block each other
   --as-paper           the paper's method alone: the acceleration is held between the samples, constraints hold at the
                        samples, and there is neither check nor guide nor right of way; planning takes no time
+  --joint              plan by Problem 1, all UAVs at once, at most 8
+  --groups             plan at once for groups of up to 8 UAVs that interact strongly
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "swarm_planner/experiments/atomic_file.hpp"
+#include "swarm_planner/experiments/comparison.hpp"
 #include "swarm_planner/experiments/csv_recorder.hpp"
 #include "swarm_planner/experiments/experiment_flight.hpp"
 #include "swarm_planner/experiments/experiment_runs.hpp"
@@ -39,6 +40,7 @@ void conduct(const ExperimentOptions& options, std::ostream& out) {
 
   const std::vector<RunResult> results = flyAll(runs, recorder.get());
   out << toTable(runs, results);
+  if (options.command == ExperimentCommand::kCompare) out << "\n" << comparisonTable(runs, results);
   if (recorder) recorder->finish();
   if (json) json->write(toJson(runs, results));
 }

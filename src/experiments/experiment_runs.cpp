@@ -24,15 +24,33 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
   return given;
 }
 
-std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const ParameterMap& given) {
+void requireMode(PlanningMode mode, const std::string& source, const Mission& mission) {
+  const std::optional<std::string> fault = planningModeFault(mode, mission.scenario.uavs.size());
+  if (fault) throw ConfigError(source + ": " + *fault);
+}
+
+/// The runs of one scenario: for each seed one, or one by each problem.
+void addRuns(const Mission& mission, const std::string& source, const ExperimentOptions& options,
+             std::vector<ExperimentRun>& runs) {
+  std::vector<std::uint64_t> seeds = options.seeds;
+  if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
+  std::vector<PlanningMode> modes = {options.mode};
+  if (options.command == ExperimentCommand::kCompare) modes = {PlanningMode::kIterative, PlanningMode::kJoint};
+  for (const PlanningMode mode : modes) {
+    requireMode(mode, source, mission);
+  }
+  for (const std::uint64_t seed : seeds) {
+    for (const PlanningMode mode : modes) runs.push_back({mission, seed, options.shortest_paths, mode, {}});
+  }
+}
+
+/// Of fly and compare.
+std::vector<ExperimentRun> scenarioRuns(const ExperimentOptions& options, const ParameterMap& given) {
   std::vector<ExperimentRun> runs;
   std::string faults;
   for (const std::string& file : options.scenario_files) {
     try {
-      const Mission mission = loadMission(file, given);
-      std::vector<std::uint64_t> seeds = options.seeds;
-      if (seeds.empty()) seeds = {static_cast<std::uint64_t>(mission.parameters.simulation.seed)};
-      for (const std::uint64_t seed : seeds) runs.push_back({mission, seed, options.shortest_paths, {}});
+      addRuns(loadMission(file, given), file, options, runs);
     } catch (const ConfigError& error) {
       faults += faults.empty() ? "" : "\n";
       faults += error.what();
@@ -44,7 +62,7 @@ std::vector<ExperimentRun> flyRuns(const ExperimentOptions& options, const Param
 
 /// Scenarios that a generator makes; the command's name stands for the file in faults.
 ExperimentRun generatedRun(const Scenario& scenario, std::uint64_t seed, const ParameterMap& given) {
-  return {makeMission(scenario, given, scenario.name), seed, false, {}};
+  return {makeMission(scenario, given, scenario.name), seed, false, PlanningMode::kIterative, {}};
 }
 
 /// 10 m, and from 20 UAVs on as much as leaves them 3 m of it each.
@@ -80,6 +98,7 @@ Scenario generated(const ExperimentOptions& options, int uavs, std::uint64_t see
       return movingObstacles(uavs, options.obstacles, seed);
     case ExperimentCommand::kHelp:
     case ExperimentCommand::kFly:
+    case ExperimentCommand::kCompare:
     case ExperimentCommand::kRehearse:
       break;
   }
@@ -99,7 +118,13 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
   const ParameterMap given = givenParameters(options);
   std::vector<ExperimentRun> runs;
   if (options.command == ExperimentCommand::kHelp) return runs;
-  if (options.command == ExperimentCommand::kFly) return flyRuns(options, given);
+  if (options.command == ExperimentCommand::kCompare && options.scenario_files.empty()) {
+    addRuns(makeMission(paperSix(), given, "paper_six"), "paper_six", options, runs);
+    return runs;
+  }
+  if (options.command == ExperimentCommand::kFly || options.command == ExperimentCommand::kCompare) {
+    return scenarioRuns(options, given);
+  }
   for (const int uavs : options.uavs) {
     for (const std::uint64_t seed : options.seeds) {
       constexpr double kHour = 3600.0;  // [s]
@@ -107,6 +132,8 @@ std::vector<ExperimentRun> makeExperimentRuns(const ExperimentOptions& options) 
                          ? rehearsalRun(uavs, kHour * options.hours, seed, given)
                          : generatedRun(generated(options, uavs, seed), seed, given));
       runs.back().shortest_paths = options.shortest_paths;
+      runs.back().mode = options.mode;
+      requireMode(options.mode, runs.back().mission.scenario.name, runs.back().mission);
     }
   }
   return runs;

@@ -20,19 +20,23 @@ std::size_t indexOf(const std::string& name, const std::vector<ScenarioUav>& uav
 
 bool tellsOfFault(Reason reason) {
   switch (reason) {
-    case Reason::kNone:
-    case Reason::kSolverFailed:
-    case Reason::kPlanRefused:
-    case Reason::kBraking:
-    case Reason::kUnsafeRest:
-    case Reason::kNoSafePlan:
-    case Reason::kOverrun:
-    case Reason::kGivesWay:
-    case Reason::kWaits:
-    case Reason::kParked:
-      return false;
-    default:
+    case Reason::kWaitingForOdometry:
+    case Reason::kOdometryStale:
+    case Reason::kOdometryFromFuture:
+    case Reason::kOdometryNotFinite:
+    case Reason::kOdometryFrozen:
+    case Reason::kOdometryJumps:
+    case Reason::kOdometryBackwards:
+    case Reason::kOdometryDrifts:
+    case Reason::kStraying:
+    case Reason::kOffMotion:
+    case Reason::kNotFollowing:
+    case Reason::kOffPlan:
+    case Reason::kEvadesUnseen:
+    case Reason::kTakingOver:
       return true;
+    default:
+      return false;
   }
 }
 

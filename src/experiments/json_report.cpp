@@ -110,6 +110,8 @@ JsonObject toObject(const Scenario& scenario, const RunResult& run) {
   object.add("scenario", run.scenario)
       .addCount("seed", run.seed)
       .addCount("uavs", run.uavs)
+      .addCount("problem", run.mode == PlanningMode::kJoint ? 1U : 2U)
+      .add("mode", std::string(planningModeText(run.mode)))
       .addCount("cycles", run.cycles)
       .add("cycle_ms", toObject(run.cycle_ms))
       .add("uav_ms", toObject(run.uav_ms))

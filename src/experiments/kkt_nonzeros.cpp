@@ -32,7 +32,8 @@ void addControlPointRows(long long per_point, long long axes, bool at_knots, boo
   count.add(per_point * free_segments, 3 * axes);                    // p, v and a
 }
 
-RowCount countRows(const Mission& mission) {
+/// Rows of one UAV that keeps clear of `bodies` that it does not plan for itself.
+RowCount countRows(const Mission& mission, std::size_t bodies) {
   const Scenario& scenario = mission.scenario;
   const LimitParameters& limits = mission.parameters.limits;
   const bool at_knots = !limits.segment_constraints;
@@ -43,10 +44,7 @@ RowCount countRows(const Mission& mission) {
   count.add(kHorizon, 2 * kAxes);                                          // most thrust: v and a
   count.add(kHorizon, 2);                                                  // least thrust, upwards
   if (scenario.workspace) addControlPointRows(2 * kAxes, 1, at_knots, false, count);
-  if (limits.avoidance && !scenario.uavs.empty()) {
-    const auto bodies = static_cast<long long>(scenario.obstacles.size() + scenario.uavs.size() - 1);
-    addControlPointRows(bodies, kAxes, at_knots, true, count);
-  }
+  if (limits.avoidance) addControlPointRows(static_cast<long long>(bodies), kAxes, at_knots, true, count);
   return count;
 }
 
@@ -57,18 +55,35 @@ long long heldAccelerationEntries() {
   return hessian + 2 * dynamics;
 }
 
+/// Of the QP of so many UAVs with these rows.
+long long nonzeros(long long uavs, const RowCount& rows) {
+  const long long last_acceleration = kAxes;
+  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + last_acceleration;
+  const long long dynamics = kHorizon * (9 + 9) + (kHorizon - 1) * 18;
+  const long long inequalities = rows.entries + 2 * rows.rows;
+  return uavs * (hessian + 2 * dynamics) + rows.rows + 2 * inequalities;
+}
+
 }  // namespace
 
 long long kktNonzeros(const Mission& mission) {
-  const RowCount rows = countRows(mission);
+  const std::size_t others = mission.scenario.uavs.empty() ? 0 : mission.scenario.uavs.size() - 1;
+  const RowCount rows = countRows(mission, mission.scenario.obstacles.size() + others);
   if (mission.parameters.limits.as_paper) {
     return heldAccelerationEntries() + rows.rows + 2 * (rows.entries + 2 * rows.rows);
   }
-  const long long last_acceleration = kAxes;
-  const long long hessian = kHorizon * (kAxes * kAxes + kAxes + kAxes) + last_acceleration + rows.rows;
-  const long long dynamics = kHorizon * (9 + 9) + (kHorizon - 1) * 18;
-  const long long inequalities = rows.entries + 2 * rows.rows;
-  return hessian + 2 * dynamics + 2 * inequalities;
+  return nonzeros(1, rows);
+}
+
+long long jointKktNonzeros(const Mission& mission) {
+  const auto uavs = static_cast<long long>(mission.scenario.uavs.size());
+  const RowCount own = countRows(mission, mission.scenario.obstacles.size());
+  RowCount rows{uavs * own.rows, uavs * own.entries};
+  const LimitParameters& limits = mission.parameters.limits;
+  if (limits.avoidance) {
+    addControlPointRows(uavs * (uavs - 1) / 2, 2 * kAxes, !limits.segment_constraints, true, rows);
+  }
+  return nonzeros(uavs, rows);
 }
 
 }  // namespace swarm_planner

@@ -31,7 +31,7 @@ Superellipsoid abreast(const Superellipsoid& obstacle, const Vector3& point) {
 
 }  // namespace
 
-RandomMissions::RandomMissions(const Mission& mission, const Workspace& field, IterativePlanner& planner,
+RandomMissions::RandomMissions(const Mission& mission, const Workspace& field, SwarmCyclePlanner& planner,
                                std::uint64_t seed)
     : field_(field),
       planner_(planner),

@@ -69,14 +69,15 @@ Vector4 rotorSpeeds(double thrust, double tau_phi, double tau_theta, const Vehic
   return (force.cwiseMax(0.0).cwiseMin(max_force) / vehicle.force_constant).cwiseSqrt();
 }
 
-FlatInputs flatInputs(const Vector3& v, const Vector3& a, const Vector3& jerk, const VehicleParameters& vehicle) {
+FlatInputs flatInputs(const Vector3& v, const Vector3& a, const Vector3& jerk, const VehicleParameters& vehicle,
+                      const Vector3& snap) {
   FlatInputs inputs;
   inputs.attitude = attitudeFor(v, a, vehicle);
 
   const Vector3 drag = vehicle.dragOverMass();
   const Vector3 lift = thrustAcceleration(v, a, vehicle) + vehicle.gravity * upward();
   const Vector3 lift_first = jerk + drag.cwiseProduct(a);
-  const Vector3 lift_second = drag.cwiseProduct(jerk);
+  const Vector3 lift_second = snap + drag.cwiseProduct(jerk);
   if (std::hypot(lift.x(), lift.z()) > kFreeFall) {
     const Jet x{lift.x(), lift_first.x(), lift_second.x()};
     const Jet z{lift.z(), lift_first.z(), lift_second.z()};

@@ -36,27 +36,6 @@ double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative
   return least;
 }
 
-/// `plane`: the first of the body's planes; `end`: of all planes.
-void addBodyViolations(const UavProblem& problem, const MovingBody& body, const PlanPoints& points,
-                       SegmentPlanes::const_iterator plane, SegmentPlanes::const_iterator end, Violation& violation) {
-  const std::size_t index = plane != end ? plane->body : 0;
-  for (int k = 0; k < kHorizon; ++k) {
-    while (plane != end && plane->body == index && plane->segment < k) ++plane;
-    const bool has_plane = plane != end && plane->body == index && plane->segment == k;
-    const SegmentPoints relative = relativeConstrainedPoints(problem, points, k, body);
-    if (isBeyond(body, relative, 0.0)) continue;
-    const bool is_safe = has_plane && body.halfSpacesAreSafe();
-    const double known = is_safe ? leastClearance(plane->half_space, relative) : -kInfinity;
-    if (known >= 0.0) continue;
-    const SegmentClearance segment = segmentClearance(body, k, relative);
-    if (segment.clearance >= 0.0) continue;
-    const HalfSpace& half_space = known > segment.clearance ? plane->half_space : segment.half_space;
-    for (std::size_t i = firstConstrainedPoint(problem.bounds); i < relative.size(); ++i) {
-      violation.add(half_space.clearance(relative[i]));
-    }
-  }
-}
-
 /// Lower bound of the distance from a point `r` relative to the centre to the surface S = 1 [m], which is what counts
 /// as clearance: eps_s belongs to the constraint (7) alone. Just some distance above `limit` if it is certainly above.
 double surfaceDistance(const Superellipsoid& obstacle, const Vector3& r, double limit) {
@@ -112,6 +91,25 @@ Box planBox(const PlanPoints& points) {
   return box;
 }
 
+void addBodyViolations(const UavProblem& problem, const MovingBody& body, std::size_t index, const PlanPoints& points,
+                       SegmentPlanes::const_iterator plane, SegmentPlanes::const_iterator end, Violation& violation) {
+  for (int k = 0; k < kHorizon; ++k) {
+    while (plane != end && plane->body == index && plane->segment < k) ++plane;
+    const bool has_plane = plane != end && plane->body == index && plane->segment == k;
+    const SegmentPoints relative = relativeConstrainedPoints(problem, points, k, body);
+    if (isBeyond(body, relative, 0.0)) continue;
+    const double known =
+        has_plane && body.halfSpacesAreSafe() ? leastClearance(plane->half_space, relative) : -kInfinity;
+    if (known >= 0.0) continue;
+    const SegmentClearance segment = segmentClearance(body, k, relative);
+    if (segment.clearance >= 0.0) continue;
+    const HalfSpace& half_space = known > segment.clearance ? plane->half_space : segment.half_space;
+    for (std::size_t i = firstConstrainedPoint(problem.bounds); i < relative.size(); ++i) {
+      violation.add(half_space.clearance(relative[i]));
+    }
+  }
+}
+
 Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
   Violation violation;
   const bool bounded = problem.bounds.workspace.max.allFinite();
@@ -126,20 +124,18 @@ Violation planViolation(const UavProblem& problem, const Trajectory& plan, const
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     const MovingBody& body = problem.bodies[i];
     while (plane != planes.end() && plane->body < i) ++plane;
-    const bool has_planes = plane != planes.end() && plane->body == i;
-    if (body.box().near(box, 0.0)) {
-      addBodyViolations(problem, body, points, has_planes ? plane : planes.end(), planes.end(), violation);
-    }
+    if (body.box().near(box, 0.0)) addBodyViolations(problem, body, i, points, plane, planes.end(), violation);
   }
   return violation;
 }
 
+double penaltyOf(const Violation& violation, const SqpParameters& sqp) {
+  return sqp.slack_linear * violation.linear + 0.5 * sqp.slack_quadratic * violation.quadratic;
+}
+
 Merit merit(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes) {
   const Violation violation = planViolation(problem, plan, planes);
-  const SqpParameters& sqp = problem.parameters->sqp;
-  return {
-      planCost(problem, plan) + sqp.slack_linear * violation.linear + 0.5 * sqp.slack_quadratic * violation.quadratic,
-      violation.largest};
+  return {planCost(problem, plan) + penaltyOf(violation, problem.parameters->sqp), violation.largest};
 }
 
 PredictedClearance predictedClearance(const UavProblem& problem, const Trajectory& plan) {

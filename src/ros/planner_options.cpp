@@ -20,6 +20,12 @@ TwistFrame twistFrame(const std::string& name, Faults& faults) {
   return TwistFrame::kBody;
 }
 
+PlanningMode planningMode(const std::string& name, Faults& faults) {
+  const std::optional<PlanningMode> mode = planningModeFrom(name);
+  if (!mode) faults.add("parameters", "mode", "is '" + name + "', expected iterative, joint or groups");
+  return mode.value_or(PlanningMode::kIterative);
+}
+
 SetpointDelivery setpointDelivery(const std::string& name, Faults& faults) {
   if (name == "at_epoch") return SetpointDelivery::kAtEpoch;
   if (name != "at_once")
@@ -33,6 +39,9 @@ const std::vector<NodeParameter>& plannerNodeTable() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static const std::vector<NodeParameter> table = {
       {"scenario", "path of the scenario file", std::string(), true},
+      {"mode", "how plans are made: iterative, UAV by UAV, joint, at once for a small swarm, or groups, at once for "
+               "those that interact strongly",
+       std::string("iterative")},
       {"odometry_topic", "odometry of a UAV, {uav} stands for its name", std::string(kDefaultOdometryTopic)},
       {"trajectory_topic", "setpoints of a UAV, {uav} stands for its name", std::string(kDefaultTrajectoryTopic)},
       {"planning_frame", "frame to plan in, empty: the scenario's frame_id", std::string()},
@@ -56,6 +65,7 @@ PlannerNodeOptions takePlannerNodeOptions(ParameterMap& given, Faults& faults) {
   const auto number = [&values](const char* name) { return std::get<double>(values.at(name)); };
   PlannerNodeOptions options;
   options.scenario = text("scenario");
+  options.mode = planningMode(text("mode"), faults);
   options.odometry_topic = text("odometry_topic");
   options.trajectory_topic = text("trajectory_topic");
   options.planning_frame = text("planning_frame");

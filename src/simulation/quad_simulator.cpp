@@ -14,6 +14,12 @@ namespace {
 constexpr double kThrustShare = 0.9;
 /// Least share of the weight that is carried upwards, so that the commanded attitude stays upright.
 constexpr double kMinLift = 0.2;
+/// Commands that differ by less [m/s^2] are not limited.
+constexpr double kSameAcceleration = 1e-9;
+/// Jerk jumps between the stages of a plan, and with it the angular velocity: the turn is spread over this much time
+/// before and after [s].
+constexpr double kTurnTime = 0.05;
+static_assert(kTurnTime <= kSetpointMemory, "what was asked for at the beginning of the turn is not known");
 
 /// A unit vector, uniform on the sphere.
 Vector3 direction(std::uint64_t seed) { return GaussianNoise(seed).vector(1.0).normalized(); }
@@ -121,11 +127,15 @@ void QuadSimulator::control() {
   // The attitude turns with the setpoint's jerk and with the feedback: without the latter's rate it would lag behind
   // every correction. Where the limits cut in the command stands still instead.
   Vector3 jerk_command = Vector3::Zero();
-  if (limited.isApprox(acceleration_command)) {
-    jerk_command = wanted.jerk + simulation_.position_gain * (wanted.v - state_.v) +
+  Vector3 snap_command = Vector3::Zero();
+  if ((limited - acceleration_command).norm() < kSameAcceleration) {
+    const MotionSetpoint before = setpoints_.at(time_ - kTurnTime);
+    const MotionSetpoint after = setpoints_.at(time_ + kTurnTime);
+    jerk_command = (after.a - before.a) / (2.0 * kTurnTime) + simulation_.position_gain * (wanted.v - state_.v) +
                    simulation_.velocity_gain * (wanted.a - acceleration());
+    snap_command = (after.jerk - before.jerk) / (2.0 * kTurnTime);
   }
-  const FlatInputs flat = flatInputs(state_.v, limited, jerk_command, vehicle_);
+  const FlatInputs flat = flatInputs(state_.v, limited, jerk_command, vehicle_, snap_command);
 
   const double tau_phi = flat.tau_phi + vehicle_.inertia_x * attitudeFeedback(flat.attitude.phi - state_.phi,
                                                                               flat.phi_rate - state_.phi_rate);

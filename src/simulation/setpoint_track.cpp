@@ -68,8 +68,8 @@ bool SetpointTrack::receive(const SetpointTrajectory& trajectory, double now) {
   received_.erase(later, received_.end());
   if (received_.size() >= kMostWaiting) received_.pop_back();
   received_.push_back(trajectory);
-  // Forget what a successor has already taken over from.
-  const SetpointTrajectory* active = activeAt(now);
+  // Forget what a successor has taken over from long enough ago.
+  const SetpointTrajectory* active = activeAt(now - kSetpointMemory);
   if (active != nullptr) received_.erase(received_.begin(), received_.begin() + (active - received_.data()));
   return true;
 }

@@ -2,10 +2,10 @@
 #include "swarm_planner/solver/generated_solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 #include <utility>
 
+#include "generated_qp.hpp"
 #include "planner_qp.h"
 #include "swarm_planner/solver/instruction_set.hpp"
 
@@ -19,7 +19,7 @@ static_assert(PLANNER_QP_OUTPUT_THRUST_ACCELERATION == static_cast<int>(Output::
                   PLANNER_QP_OUTPUT_VELOCITY_CONTROL_POINT == static_cast<int>(Output::kVelocityControlPoint),
               "the outputs are in another order");
 static_assert(PLANNER_QP_MAX_ROWS_POSITION == kMaxBodyRows && PLANNER_QP_MAX_ROWS_VELOCITY == kMaxLimitRows &&
-                  PLANNER_QP_MAX_QUADRATIC == kMaxCurvatures,
+                  PLANNER_QP_MAX_QUADRATIC == kMaxCurvatures && PLANNER_QP_FIRST_STAGE_POSITION == 1,
               "the generated solver has other capacities");
 
 struct Functions {
@@ -45,8 +45,6 @@ const Functions& functions() {
   return kFunctions;
 }
 
-void copy(const Vector3& from, double* to) { Eigen::Map<Vector3>(to, 3) = from; }
-
 }  // namespace
 
 struct GeneratedTables::Entry {
@@ -56,18 +54,7 @@ struct GeneratedTables::Entry {
 
 GeneratedTables::GeneratedTables(const std::vector<QpModel>& models) {
   for (const QpModel& model : models) {
-    planner_qp_parameters parameters{};
-    parameters.dt = model.dt;
-    parameters.along = model.along_weight;
-    parameters.across = model.across_weight;
-    parameters.velocity = model.velocity_weight;
-    parameters.final_velocity = model.final_velocity_weight;
-    parameters.final_acceleration = model.final_acceleration_weight;
-    parameters.jerk = model.jerk_weight;
-    parameters.drag = model.drag_over_mass;
-    parameters.slack_linear = model.slack_linear;
-    parameters.slack_quadratic = model.slack_quadratic;
-    parameters.held = model.holds_acceleration ? 1.0 : 0.0;
+    const auto parameters = generatedParameters<planner_qp_parameters>(model);
     auto entry = std::make_unique<Entry>();
     entry->model = model;
     if (functions().setup(&entry->tables, &parameters, PLANNER_QP_HASH) != PLANNER_QP_SOLVED) {
@@ -88,7 +75,8 @@ const GeneratedTables::Entry* GeneratedTables::find(const QpModel& model) const 
 
 struct GeneratedSolver::Memory {
   planner_qp_solver solver;
-  std::array<ActiveRow, PLANNER_QP_ROW_SLOTS> row_of_slot;  ///< what each of the solver's rows is, without multiplier
+  std::vector<ActiveRow> row_of_slot =
+      std::vector<ActiveRow>(PLANNER_QP_ROW_SLOTS);  ///< what each of the solver's rows is, without multiplier
   const GeneratedTables::Entry* initialised_for = nullptr;
 };
 
@@ -125,58 +113,26 @@ void GeneratedSolver::storeActiveRows(ActiveRows& active) const {
   for (int i = 0; i < s.active_count; ++i) {
     const int id = s.active_id[i];
     if (id >= PLANNER_QP_ROW_SLOTS || !(s.multiplier[i] > 0.0)) continue;  // a curvature term
-    const ActiveRow& row = memory_->row_of_slot[static_cast<std::size_t>(id)];
-    int place = active.count++;
-    for (; place > 0 && active.rows[static_cast<std::size_t>(place - 1)].stage > row.stage; --place) {
-      active.rows[static_cast<std::size_t>(place)] = active.rows[static_cast<std::size_t>(place - 1)];
-    }
-    active.rows[static_cast<std::size_t>(place)] = row;
-    active.rows[static_cast<std::size_t>(place)].multiplier = s.multiplier[i];
+    ActiveRow row = memory_->row_of_slot[static_cast<std::size_t>(id)];
+    row.multiplier = s.multiplier[i];
+    active.insert(row);
   }
 }
 
 void GeneratedSolver::load(const Qp& qp, const ActiveRows& guess) {
   planner_qp_solver& s = memory_->solver;
-  const Matrix3 to_axes = qp.axes.transpose();
-  copy(to_axes * qp.start.p, s.x0);
-  copy(to_axes * qp.start.v, s.x0 + 3);
-  copy(to_axes * qp.start.a, s.x0 + 6);
   planner_qp_clear_rows(&s);
   s.warm_count = 0;
-  int guess_begin = 0;
-  for (std::size_t k = 1; k <= kHorizon; ++k) {
-    const QpStage& stage = qp.stages[k];
-    copy(to_axes * stage.position_gradient, s.state_linear[k - 1]);
-    copy(to_axes * stage.velocity_gradient, s.state_linear[k - 1] + 3);
-    while (guess_begin < guess.count && guess.rows[static_cast<std::size_t>(guess_begin)].stage < static_cast<int>(k)) {
-      ++guess_begin;
-    }
-    for (std::size_t i = 0; i < static_cast<std::size_t>(stage.row_count); ++i) {
-      const QpRow& row = stage.rows[i];
-      const Vector3 normal = to_axes * row.n;
-      const int slot = planner_qp_add_row(&s, static_cast<int>(row.output), static_cast<int>(k), normal.data(), row.d,
-                                          PLANNER_QP_PENALTY_SLACK);
-      memory_->row_of_slot[static_cast<std::size_t>(slot)] = {static_cast<std::int8_t>(k), row.output, row.source, 0.0};
-      for (int g = guess_begin; g < guess.count && guess.rows[static_cast<std::size_t>(g)].stage == static_cast<int>(k);
-           ++g) {
-        const ActiveRow& guessed = guess.rows[static_cast<std::size_t>(g)];
-        if (guessed.source != row.source || guessed.output != row.output) continue;
-        if (s.warm_count == PLANNER_QP_MAX_ACTIVE) break;
+  loadQp(
+      qp, guess, s, memory_->row_of_slot,
+      [&s](int output, int stage, const double* normal, double d) {
+        return planner_qp_add_row(&s, output, stage, normal, d, PLANNER_QP_PENALTY_SLACK);
+      },
+      [&s](int slot, double multiplier) {
+        if (s.warm_count == PLANNER_QP_MAX_ACTIVE) return;
         s.warm_id[s.warm_count] = slot;
-        s.warm_multiplier[s.warm_count++] = guessed.multiplier;
-        break;
-      }
-    }
-  }
-  s.quadratic_count = qp.curvature_count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(qp.curvature_count); ++i) {
-    const QpCurvature& term = qp.curvatures[i];
-    s.quadratic_output[i] = PLANNER_QP_OUTPUT_POSITION;
-    s.quadratic_index[i] = term.stage - PLANNER_QP_FIRST_STAGE_POSITION;
-    copy(to_axes * term.n, s.quadratic_normal[i]);
-    s.quadratic_offset[i] = 0.0;
-    s.quadratic_weight[i] = term.weight;
-  }
+        s.warm_multiplier[s.warm_count++] = multiplier;
+      });
 }
 
 }  // namespace swarm_planner

@@ -39,6 +39,13 @@ void Qp::clear() {
   }
 }
 
+void ActiveRows::insert(const ActiveRow& row) {
+  if (count == kCapacity) return;
+  auto place = static_cast<std::size_t>(count++);
+  for (; place > 0 && rows[place - 1].stage > row.stage; --place) rows[place] = rows[place - 1];
+  rows[place] = row;
+}
+
 void ActiveRows::shift(int stages) {
   int kept = 0;
   for (int i = 0; i < count; ++i) {

@@ -27,7 +27,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const auto code = swarm_planner::codegen::generateFromText(swarm_planner::codegen::readText(argv[1]));
+    const auto code = swarm_planner::codegen::generateFromText(swarm_planner::codegen::readDescriptionText(argv[1]));
     const std::string stem = std::string(argv[2]) + "/" + code.name;
     write(stem + ".h", code.header);
     write(stem + ".c", code.source);

@@ -22,12 +22,8 @@ static_assert(2 * kMostSegmentPlanes + 2 * 6 <= kMaxBodyRows, "a stage cannot ho
 
 /// Row for control point i = 0..3 of segment k; those of the first segment that the start fixes get none.
 void addControlPointRow(Qp& qp, int k, int i, const Vector3& n, double d, RowSource source) {
-  if (i == 3) {
-    qp.addRow(k + 1, Output::kPosition, n, d, source + 1);
-  } else if (k > 0) {
-    constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
-    qp.addRow(k, kOutputs[static_cast<std::size_t>(i)], n, d, source);
-  }
+  const std::optional<RowPlace> place = controlPointPlace(k, i);
+  if (place) qp.addRow(place->stage, place->output, n, d, source + place->source);
 }
 
 /// The plane that touches |value + centre| <= limit towards `value`, if `value` is at least `from` of the limit.
@@ -80,24 +76,14 @@ void addWorkspaceRows(const FlightBounds& bounds, int k, const SegmentPoints& po
   }
 }
 
-/// Whether a plane asks no more of the knot between two segments than that of the segment before.
-bool isRepeated(const SegmentPlane& before, const SegmentPlane& plane) {
-  constexpr double kSame = 1e-9;
-  return before.body == plane.body && before.segment + 1 == plane.segment &&
-         (before.half_space.n - plane.half_space.n).cwiseAbs().maxCoeff() <= kSame &&
-         before.half_space.offset >= plane.half_space.offset - kSame;
-}
-
 void addBodyRows(const UavProblem& problem, const SegmentPlanes& planes, Qp& qp) {
-  const auto first_point = static_cast<int>(firstConstrainedPoint(problem.bounds));
-  for (auto plane = planes.begin(); plane != planes.end(); ++plane) {
-    const MovingBody& body = problem.bodies[plane->body];
-    const HalfSpace& half_space = plane->half_space;
-    // A knot belongs to two segments. Where both have the same plane one row does.
-    const bool is_repeated = plane != planes.begin() && isRepeated(*(plane - 1), *plane);
-    for (int j = first_point + (is_repeated && first_point == 0 ? 1 : 0); j < 4; ++j) {
-      addControlPointRow(qp, plane->segment, j, half_space.n,
-                         half_space.offset + half_space.n.dot(body.point(plane->segment, j)),
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const SegmentPlane& plane = planes[i];
+    const MovingBody& body = problem.bodies[plane.body];
+    const HalfSpace& half_space = plane.half_space;
+    for (int j = firstRowPoint(problem.bounds, planes, i); j < 4; ++j) {
+      addControlPointRow(qp, plane.segment, j, half_space.n,
+                         half_space.offset + half_space.n.dot(body.point(plane.segment, j)),
                          kBodySource + 2 * body.identity());
     }
   }
@@ -142,6 +128,13 @@ void setCost(const UavProblem& problem, const Trajectory& iterate, Qp& qp) {
 }
 
 }  // namespace
+
+std::optional<RowPlace> controlPointPlace(int k, int i) {
+  if (i == 3) return RowPlace{k + 1, Output::kPosition, 1};
+  if (k == 0) return {};
+  constexpr std::array<Output, 3> kOutputs{Output::kPosition, Output::kControlPoint1, Output::kControlPoint2};
+  return RowPlace{k, kOutputs[static_cast<std::size_t>(i)], 0};
+}
 
 QpModels makeQpModels(const Parameters& parameters) {
   const CostParameters& cost = parameters.cost;

@@ -42,29 +42,6 @@ void findPassage(const UavProblem& problem, const MovingBody& body, const PlanPo
   }
 }
 
-void addPlanes(const UavProblem& problem, std::size_t index, const PlanPoints& points, double band,
-               SegmentPlanes& planes) {
-  const MovingBody& body = problem.bodies[index];
-  Passage passage;
-  findPassage(problem, body, points, band, passage);
-  std::optional<PassingSide> side;
-  if (passage.deepest > 0 && !problem.parameters->limits.as_paper) {
-    const auto i = static_cast<std::size_t>(passage.deepest);
-    const double time = passage.deepest * problem.dt;
-    const Vector3 position = midpoint(points[i]);
-    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
-                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
-  }
-  for (int k = 0; k < kHorizon; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    if (!passage.near[i]) continue;
-    const double clearance = passage.near[i]->clearance;
-    HalfSpace half_space = passage.near[i]->half_space;
-    if (side && clearance < 0.0) half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
-    planes.push_back({index, k, half_space, clearance});
-  }
-}
-
 /// Keeps of each segment's planes those of the nearest bodies, and their order.
 void keepNearest(SegmentPlanes& planes) {
   std::array<std::size_t, kHorizon + 1> begin{};  // of each segment's part of `ranked`
@@ -92,6 +69,28 @@ void keepNearest(SegmentPlanes& planes) {
 
 }  // namespace
 
+void addSeparatingPlanes(const UavProblem& problem, const MovingBody& body, std::size_t index, const PlanPoints& points,
+                         double band, SegmentPlanes& planes) {
+  Passage passage;
+  findPassage(problem, body, points, band, passage);
+  std::optional<PassingSide> side;
+  if (passage.deepest > 0 && !problem.parameters->limits.as_paper) {
+    const auto i = static_cast<std::size_t>(passage.deepest);
+    const double time = passage.deepest * problem.dt;
+    const Vector3 position = midpoint(points[i]);
+    side = PassingSide::choose(body.grownTo(passage.deepest), passage.relative[i], position,
+                               kReachableSpeed * problem.bounds.max_speed * time, problem.bounds.workspace);
+  }
+  for (int k = 0; k < kHorizon; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!passage.near[i]) continue;
+    const double clearance = passage.near[i]->clearance;
+    HalfSpace half_space = passage.near[i]->half_space;
+    if (side && clearance < 0.0) half_space = side->halfSpace(body.grownTo(k), midpoint(passage.relative[i]));
+    planes.push_back({index, k, half_space, clearance});
+  }
+}
+
 void findSeparatingPlanes(const UavProblem& problem, const Trajectory& iterate, double band, SegmentPlanes& planes) {
   planes.clear();
   PlanPoints points;
@@ -100,9 +99,20 @@ void findSeparatingPlanes(const UavProblem& problem, const Trajectory& iterate, 
   for (std::size_t i = 0; i < problem.bodies.size(); ++i) {
     if (!problem.bodies[i].box().near(box, band)) continue;
     if (planes.size() + kHorizon > kSegmentPlaneRoom) keepNearest(planes);
-    addPlanes(problem, i, points, band, planes);
+    addSeparatingPlanes(problem, problem.bodies[i], i, points, band, planes);
   }
   keepNearest(planes);
+}
+
+int firstRowPoint(const FlightBounds& bounds, const SegmentPlanes& planes, std::size_t i) {
+  constexpr double kSame = 1e-9;
+  const auto first = static_cast<int>(firstConstrainedPoint(bounds));
+  if (i == 0 || first > 0) return first;
+  const SegmentPlane &before = planes[i - 1], &plane = planes[i];
+  const bool is_repeated = before.body == plane.body && before.segment + 1 == plane.segment &&
+                           (before.half_space.n - plane.half_space.n).cwiseAbs().maxCoeff() <= kSame &&
+                           before.half_space.offset >= plane.half_space.offset - kSame;
+  return is_repeated ? 1 : 0;
 }
 
 }  // namespace swarm_planner

@@ -2,28 +2,14 @@
 #include "swarm_planner/sqp/sqp_solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
+#include "step_rules.hpp"
 #include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/sqp/separating_planes.hpp"
 
 namespace swarm_planner {
-namespace {
-
-constexpr std::array<double, 4> kStepLengths{1.0, 0.5, 0.25, 0.125};
-constexpr double kForetold = 1e-3;   // of the gain
-constexpr double kSampleBand = 2.0;  // width of the band that gets rows, in the way flown per stage at full speed
-
-/// Largest distance between the knots of two plans [m].
-double largestMove(const Trajectory& from, const Trajectory& to) {
-  double largest = 0.0;
-  for (std::size_t k = 0; k <= kHorizon; ++k) largest = std::max(largest, (to.knots[k].p - from.knots[k].p).norm());
-  return largest;
-}
-
-}  // namespace
 
 SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
     : qp_solver_(std::move(qp_solver)),
@@ -76,10 +62,7 @@ QpStatus SqpSolver::solveQp(const UavProblem& problem, const Trajectory& plan, i
 
 double SqpSolver::acceptStep(const UavProblem& problem, Trajectory& plan, Merit& current) {
   for (const double length : kStepLengths) {
-    for (std::size_t k = 0; k < kHorizon; ++k) {
-      candidate_.jerks[k] = plan.jerks[k] + length * (solution_->jerks[k] - plan.jerks[k]);
-    }
-    rollOut(problem.start, candidate_);
+    stepTowards(solution_->jerks, length, problem.start, plan, candidate_);
     const Merit candidate = merit(problem, candidate_, planes_);
     if (!(candidate.value < current.value)) continue;
     const double moved = largestMove(plan, candidate_);

@@ -101,6 +101,8 @@ const char* reasonText(Reason reason) {
       return "waits behind";
     case Reason::kParked:
       return "parked beside its end, which is taken by";
+    case Reason::kOffMotion:
+      return "is off its motion by more than noise explains: was pushed, or does not follow";
   }
   return "unknown reason";
 }

@@ -117,12 +117,28 @@ bool Surroundings::isWithinArea(std::size_t uav, const CommittedMotion& motion) 
          (motion.box().max.array() <= (area.max - half).array()).all();
 }
 
+double Surroundings::pairGauge(const Vector3& apart) const {
+  return apart.cwiseQuotient(Vector3(horizontal_, horizontal_, vertical_)).norm();
+}
+
+double Surroundings::leastPairGauge(std::size_t first, std::size_t second, double limit) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (motions_[first].newest == nullptr || motions_[second].newest == nullptr) return kInfinity;
+  const PredictedMotion &a = predictions_[first], &b = predictions_[second];
+  if (!a.box.near(b.box, limit * std::max(horizontal_, vertical_))) return kInfinity;
+  double least = kInfinity;
+  for (std::size_t i = 0; i < a.points.size(); ++i) least = std::min(least, pairGauge(a.points[i] - b.points[i]));
+  return least;
+}
+
 Box Surroundings::reach(const KinematicState& start) const {
   const double speed = std::max(parameters_.limits.max_speed, start.v.norm());
   // The stop goes on for some stages, ever slower.
   const Vector3 extent = Vector3::Constant(speed * (kHorizon + kStopReach) * parameters_.time.sampling_time);
   return {start.p - extent, start.p + extent};
 }
+
+UavPair Surroundings::pairDistances() const { return {0, 1, horizontal_, vertical_, parameters_.limits.pair_margin}; }
 
 void Surroundings::collect(std::size_t uav, UavProblem& problem) const {
   problem.bodies.clear();

@@ -2,23 +2,20 @@
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <stdexcept>
 
 #include "swarm_planner/obstacles/track_memory.hpp"
-#include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/swarm/flight_director.hpp"
 #include "swarm_planner/swarm/foreign_body.hpp"
 #include "swarm_planner/swarm/guide_desk.hpp"
+#include "swarm_planner/swarm/planning_rounds.hpp"
 #include "swarm_planner/swarm/reference_rules.hpp"
 #include "swarm_planner/swarm/right_of_way.hpp"
-#include "swarm_planner/swarm/solve_order.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 #include "swarm_planner/swarm/surroundings.hpp"
 #include "swarm_planner/swarm/takeover.hpp"
 #include "swarm_planner/swarm/thread_team.hpp"
-#include "swarm_planner/swarm/uav_planner.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -35,7 +32,7 @@ std::vector<Vector3> homesOf(const Scenario& scenario) {
 
 class SwarmPlanner::Impl {
  public:
-  explicit Impl(const Mission& mission)
+  Impl(const Mission& mission, PlanningMode mode)
       : parameters(mission.parameters),
         uavs(mission.scenario.uavs.size()),
         bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
@@ -46,7 +43,9 @@ class SwarmPlanner::Impl {
         guides(parameters, mission.scenario.workspace, uavs.size(), maxTracks(mission)),
         right_of_way(mission, parameters),
         team(static_cast<std::size_t>(parameters.compute.threads)),
-        judged(uavs.size()) {
+        rounds(parameters, mission.scenario.workspace, mode, uavs.size(), maxTracks(mission), team),
+        judged(uavs.size()),
+        turns(uavs.size()) {
     for (std::size_t i = 0; i < uavs.size(); ++i) {
       const ScenarioUav& uav = mission.scenario.uavs[i];
       uavs[i].name = uav.name;
@@ -57,13 +56,7 @@ class SwarmPlanner::Impl {
     }
     report.uavs.resize(uavs.size());
     places.reserve(uavs.size());
-    order.reserve(uavs.size());
     foreign_bodies.reserve(uavs.size());
-    const QpModels models = makeQpModels(parameters);
-    const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
-    for (std::size_t member = 0; member < team.size(); ++member) {
-      planners.emplace_back(parameters, mission.scenario.workspace, tables, 2 * uavs.size() + maxTracks(mission));
-    }
   }
 
   void reset() {
@@ -239,23 +232,10 @@ class SwarmPlanner::Impl {
     director.assignSites(epoch, tracks.tracks(), judged, uavs);
     surroundings.findNeighbours();
     right_of_way.direct(epoch, tracks.tracks(), judged, surroundings.neighbours(), uavs);
-    order.build(surroundings.neighbours(), first);
-    std::atomic<bool> planned{false};
-    for (std::size_t round = 0; round < order.rounds(); ++round) {
-      team.forEach(order.roundBegin(round), order.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
-        const std::size_t i = order.uav(position);
-        if (isToKeepClear(i)) planners[member].keepClear(i, epoch, uavs[i], surroundings, report.uavs[i]);
-        if (!isToPlan(i)) return;
-        // Whatever the budget, somebody makes progress.
-        if (planned.exchange(true) && stopwatch.elapsed() > budget) {
-          planners[member].goOn(i, epoch, uavs[i], surroundings, report.uavs[i]);
-          reportTask(uavs[i].task, report.uavs[i]);
-        } else {
-          planners[member].plan(i, epoch, uavs[i], surroundings, report.uavs[i]);
-        }
-      });
+    for (std::size_t i = 0; i < uavs.size(); ++i) {
+      turns[i] = isToPlan(i) ? Turn::kPlan : isToKeepClear(i) ? Turn::kKeepClear : Turn::kNone;
     }
-    noteOverrun();
+    report.out_of_time = !rounds.plan(epoch, {stopwatch, budget}, turns, uavs, surroundings, report.uavs);
   }
 
   /// Whether it is not seen, but flies what was planned for it.
@@ -314,17 +294,6 @@ class SwarmPlanner::Impl {
     if (isToKeepClear(i)) surroundings.setPlanning(i, uav.motions.flown().at(epoch));
   }
 
-  /// Whose turn came first of those that missed it comes first in the next cycle, so that nobody misses it for ever.
-  /// By turn, not by round: the first of a later round could be passed over again and again.
-  void noteOverrun() {
-    for (std::size_t turn = 0; turn < uavs.size() && !report.out_of_time; ++turn) {
-      const std::size_t i = (first + turn) % uavs.size();
-      if (!report.uavs[i].overrun) continue;
-      report.out_of_time = true;
-      first = i;
-    }
-  }
-
   TrackMemory tracks;
   std::vector<ForeignBody> foreign_bodies;  ///< of this cycle
   Surroundings surroundings;
@@ -333,15 +302,14 @@ class SwarmPlanner::Impl {
   FlightDirector director;
   GuideDesk guides;
   RightOfWay right_of_way;
-  SolveOrder order;
   ThreadTeam team;
-  std::vector<UavPlanner> planners;  ///< one per member of the team
-  std::size_t first = 0;             ///< the UAV that plans first
-  std::vector<Reason> judged;        ///< of each UAV's measurement in this cycle
-  std::vector<Vector3> places;       ///< of the UAVs that are measured
+  PlanningRounds rounds;
+  std::vector<Reason> judged;   ///< of each UAV's measurement in this cycle
+  std::vector<Vector3> places;  ///< of the UAVs that are measured
+  std::vector<Turn> turns;      ///< of each UAV in this cycle
 };
 
-SwarmPlanner::SwarmPlanner(const Mission& mission) : impl_(std::make_unique<Impl>(mission)) {}
+SwarmPlanner::SwarmPlanner(const Mission& mission, PlanningMode mode) : impl_(std::make_unique<Impl>(mission, mode)) {}
 SwarmPlanner::~SwarmPlanner() = default;
 SwarmPlanner::SwarmPlanner(SwarmPlanner&&) noexcept = default;
 SwarmPlanner& SwarmPlanner::operator=(SwarmPlanner&&) noexcept = default;

@@ -8,24 +8,18 @@
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
-#include "swarm_planner/swarm/place_beside.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/planner_limits.hpp"
 #include "swarm_planner/swarm/right_of_way.hpp"
-#include "swarm_planner/swarm/shortfall.hpp"
 #include "swarm_planner/swarm/stopwatch.hpp"
 
 namespace swarm_planner {
 namespace {
 
-constexpr double kSamePlace = 1e-6;      // starts closer than this are the same [m, m/s]
-constexpr double kSameShortfall = 1e-3;  // [m s]
-constexpr double kPassed = 0.5;          // of the way flown per stage at full speed: a sharp corner nearer is passed
-constexpr double kStanding = 0.05;       // of max_speed: a slower UAV stands
+constexpr double kSamePlace = 1e-6;  // starts closer than this are the same [m, m/s]
+constexpr double kPassed = 0.5;      // of the way flown per stage at full speed: a sharp corner nearer is passed
+constexpr double kStanding = 0.05;   // of max_speed: a slower UAV stands
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Changes of the active set per QP: where a crowd leaves no way, hundreds would go into rows that stay violated. The
-/// step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
-constexpr int kMostQpChanges = 100;
 /// Steps from the motion flown towards the solver's plan.
 constexpr std::array<double, 3> kStepsBack{0.5, 0.25, 0.0};
 
@@ -53,49 +47,80 @@ UavPlanner::UavPlanner(const Parameters& parameters, const std::optional<Workspa
 
 void UavPlanner::plan(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
   const Stopwatch stopwatch;
-  survey(uav, epoch, record, surroundings);
-  if (rest(uav, epoch, record, surroundings)) {
-    poseProblem(uav, epoch, record, surroundings);
-  } else {
+  if (begin(uav, epoch, record, surroundings, report)) {
     report.reason = flyOn(uav, epoch, record, surroundings, report);
+    conclude(uav, epoch, record, surroundings, report);
   }
-  publish(uav, epoch, record, surroundings);
-  fillReport(epoch, record, report);
   report.solve_time = stopwatch.elapsed();
 }
 
-void UavPlanner::goOn(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report) {
-  report.overrun = true;
-  report.reason = Reason::kOverrun;
-  if (record.task.mode == FlightMode::kLanded) {
-    record.motions.goOn(epoch);
-  } else {
-    survey(uav, epoch, record, surroundings);
-    record.motions.goOn(epoch);
-    kept_ = record.motions.newest();
-    const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
-    if (!kept.accepted()) report.reason = brake(kept, uav, epoch, record, surroundings);
-    publish(uav, epoch, record, surroundings);
-  }
-  report.planned = record.planned;
-  report.state = UavState::kFallback;
+bool UavPlanner::begin(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                       UavReport& report) {
+  survey(uav, epoch, record, surroundings);
+  if (!rest(uav, epoch, record, surroundings)) return true;
+  poseProblem(uav, epoch, record, surroundings);
+  conclude(uav, epoch, record, surroundings, report);
+  return false;
 }
 
-void UavPlanner::keepClear(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
-                           UavReport& report) {
+void UavPlanner::conclude(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                          UavReport& report) {
+  publish(uav, epoch, record, surroundings);
+  fillReport(epoch, record, report);
+}
+
+void UavPlanner::pose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+                      const std::vector<bool>& solved_together, Trajectory& start_plan) {
+  poseProblem(uav, epoch, record, surroundings);
+  std::vector<MovingBody>& bodies = problem_.bodies;
+  const auto is_solved_too = [&solved_together](const MovingBody& body) {
+    const std::optional<std::size_t> other = Surroundings::uavOf(body);
+    return other && *other < solved_together.size() && solved_together[*other];
+  };
+  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), is_solved_too), bodies.end());
+  startFromFlown(epoch, record);
+  record.task.is_quickest_stop = false;
+  start_plan = plan_;
+}
+
+SqpResult UavPlanner::leadAlongGuide(Trajectory& start_plan) {
+  const SqpResult alone = solveGuideAlone();
+  start_plan = along_;
+  return alone;
+}
+
+const CommittedMotion& UavPlanner::draft(const Trajectory& plan, const UavRecord& record) {
+  StopManoeuvre stop;
+  plan_ = plan;
+  keepJerkLimit(record.start);
+  planStop(plan_.knots.back(), plan_.dt, limits_.bounds, stop);
+  motion_.assign(plan_, stop);
+  return motion_;
+}
+
+bool UavPlanner::passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
   survey(uav, epoch, record, surroundings);
-  kept_ = record.motions.flown();
-  kept_.moveTo(epoch);
-  const CheckVerdict verdict = checkClearance(kept_, kept_.start(), limits_, check_);
-  if (!verdict.accepted()) {
-    record.start = record.motions.flown().at(epoch);
-    record.evades = true;
-    const bool has_plan = goTo(kept_.restingPlace(), uav, epoch, record, surroundings, report);
-    const Reason reason = has_plan ? Reason::kNone : fallBack(uav, epoch, record, surroundings, report);
-    report.reason = isAlarm(reason) ? reason : Reason::kEvadesUnseen;
-    publish(uav, epoch, record, surroundings);
-  }
-  report.planned = record.evades;
+  return judge(uav, surroundings, plan_).accepted();
+}
+
+void UavPlanner::commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                             const SqpResult& result, UavReport& report) {
+  takeResult(result, record, report);
+  flies_whole_plan_ = true;
+  record.motions.commit(motion_);
+  record.planned = true;
+  report.reason = Reason::kNone;
+  surroundings.collect(uav, problem_);
+  conclude(uav, epoch, record, surroundings, report);
+}
+
+void UavPlanner::planAnew(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                          const SqpResult& result, UavReport& report) {
+  report.sqp_iterations += result.iterations;
+  report.qp_iterations += result.qp_iterations;
+  survey(uav, epoch, record, surroundings);
+  report.reason = flyOn(uav, epoch, record, surroundings, report);
+  conclude(uav, epoch, record, surroundings, report);
 }
 
 void UavPlanner::survey(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
@@ -148,31 +173,18 @@ Reason UavPlanner::flyOn(std::size_t uav, double epoch, UavRecord& record, const
   return report.stays ? Reason::kPlanRefused : Reason::kNone;
 }
 
-bool UavPlanner::rest(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings) {
-  FlightTask& task = record.task;
-  if (task.mode == FlightMode::kLanded) {
-    record.motions.goOn(epoch);
-    return true;
-  }
-  if (task.mode != FlightMode::kStopped || !record.planned) return false;
-  if (task.is_quickest_stop && !record.motions.newestIsLost()) {
-    record.motions.goOn(epoch);
-    const CommittedMotion& motion = record.motions.newest();
-    return checkClearance(motion, motion.start(), limits_, check_).accepted();
-  }
-  const KinematicState x = record.motions.flown().at(epoch);
-  StopManoeuvre stop;
-  planStop(x, problem_.dt, relieveBounds(limits_.bounds, x, kBoundSlack), stop);
-  stop_.assignStop(epoch, stop);
-  task.is_quickest_stop = stop.within_bounds && surroundings.isWithinArea(uav, stop_) &&
-                          checkClearance(stop_, committed_, limits_, check_).accepted();
-  if (task.is_quickest_stop) record.motions.commit(stop_);
-  return task.is_quickest_stop;
-}
-
 CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                                  UavReport& report) {
   poseProblem(uav, epoch, record, surroundings);
+  startFromFlown(epoch, record);
+  SqpResult result = sqp_.solve(problem_, plan_, record.active);
+  if (!result.solved) plan_ = shifted_;
+  if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
+  keepJerkLimit(record.start);
+  return decide(uav, record, surroundings, result, report);
+}
+
+void UavPlanner::startFromFlown(double epoch, UavRecord& record) {
   if (record.planned) {
     shiftPlan(record.motions.flown(), record.start, epoch, problem_.dt, shifted_);
   } else {
@@ -180,16 +192,19 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   }
   plan_ = shifted_;
   guessActiveRows(epoch, record);
-  SqpResult result = sqp_.solve(problem_, plan_, record.active);
-  if (!result.solved) plan_ = shifted_;
-  if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
-  keepJerkLimit(record.start);
+}
+
+void UavPlanner::takeResult(const SqpResult& result, UavRecord& record, UavReport& report) const {
   record.guide.notePlan(plan_.knots.back().p, problem_);
   report.sqp_iterations += result.iterations;
   report.qp_iterations += result.qp_iterations;
   report.solved = result.solved;
-
   report.max_slack = result.max_violation;
+}
+
+CheckVerdict UavPlanner::decide(std::size_t uav, UavRecord& record, const Surroundings& surroundings,
+                                const SqpResult& result, UavReport& report) {
+  takeResult(result, record, report);
   const CheckVerdict verdict = judge(uav, surroundings, plan_);
   flies_whole_plan_ = verdict.accepted();
   if (flies_whole_plan_) return verdict;
@@ -198,7 +213,7 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   if (is_motion && surroundings.isWithinArea(uav, motion_)) {
     has_proposal_ = true;
     proposed_ = motion_;
-    proposal_conflict_ = verdict.reason == CheckReason::kRestingPlace ? epoch + verdict.time : epoch;
+    proposal_conflict_ = problem_.epoch + (verdict.reason == CheckReason::kRestingPlace ? verdict.time : 0.0);
   }
   step_ = plan_;
   for (const double length : kStepsBack) {
@@ -222,13 +237,18 @@ void UavPlanner::keepJerkLimit(const KinematicState& start) {
   rollOut(start, plan_);
 }
 
-void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
+SqpResult UavPlanner::solveGuideAlone() {
   along_ = shifted_;
   along_active_.count = 0;
   std::swap(problem_.bodies, no_bodies_);
   const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
   std::swap(problem_.bodies, no_bodies_);
   along_active_.count = 0;
+  return alone;
+}
+
+void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
+  const SqpResult alone = solveGuideAlone();
   SqpResult other = sqp_.solve(problem_, along_, along_active_);
   const int iterations = result.iterations + alone.iterations + other.iterations;
   const int qp_iterations = result.qp_iterations + alone.qp_iterations + other.qp_iterations;
@@ -266,76 +286,6 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
   return verdict;
 }
 
-Reason UavPlanner::fallBack(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
-                            UavReport& report) {
-  record.motions.goOn(epoch);
-  kept_ = record.motions.newest();
-  const CheckVerdict kept = checkClearance(kept_, kept_.start(), limits_, check_);
-  if (kept.accepted()) return Reason::kPlanRefused;
-  if (kept.reason == CheckReason::kRestingPlace && giveWay(kept, uav, epoch, record, surroundings, report)) {
-    return Reason::kGivesWayToObstacle;
-  }
-  return brake(kept, uav, epoch, record, surroundings);
-}
-
-bool UavPlanner::goTo(const Vector3& place, std::size_t uav, double epoch, UavRecord& record,
-                      const Surroundings& surroundings, UavReport& report) {
-  detour_.path.assignLine(record.start.p, place);
-  detour_.start = detour_.path.length();
-  detour_.speed = 0.0;
-  detour_.time_zero = epoch;
-  on_detour_ = true;
-  const bool accepted = propose(uav, epoch, record, surroundings, report).accepted();
-  on_detour_ = false;
-  if (accepted) {
-    record.motions.commit(motion_);
-    record.planned = true;
-  }
-  return accepted;
-}
-
-bool UavPlanner::giveWay(const CheckVerdict& verdict, std::size_t uav, double epoch, UavRecord& record,
-                         const Surroundings& surroundings, UavReport& report) {
-  const double arrival = epoch + kHorizon * problem_.dt;
-  const std::optional<Vector3> place =
-      placeBeside(kept_.restingPlace(), static_cast<std::size_t>(verdict.body), arrival, limits_, check_);
-  return place && goTo(*place, uav, epoch, record, surroundings, report);
-}
-
-Reason UavPlanner::brake(const CheckVerdict& kept, std::size_t uav, double epoch, UavRecord& record,
-                         const Surroundings& surroundings) {
-  StopManoeuvre stop;
-  planStop(record.start, problem_.dt, relieveBounds(limits_.bounds, record.start, kBoundSlack), stop);
-  stop_.assignStop(epoch, stop);
-  const bool may_stop = surroundings.isWithinArea(uav, stop_);
-  if (may_stop && stop.within_bounds && checkClearance(stop_, committed_, limits_, check_).accepted()) {
-    record.motions.commit(stop_);
-    record.planned = true;
-    return Reason::kBraking;
-  }
-
-  // Nothing is safe for good. What falls short least flies; among those that do not within the time looked at, the one
-  // whose place of rest is safe longest: a later cycle has that much time to find better.
-  double least = shortfall(kept_, epoch, limits_, check_);
-  double conflict = kept.reason == CheckReason::kRestingPlace ? kept_.epoch() + kept.time : epoch;
-  const CommittedMotion* best = &kept_;
-  const auto consider = [&](const CommittedMotion& motion, double its_conflict) {
-    const double lacking = shortfall(motion, epoch, limits_, check_);
-    const bool lasts_longer = lacking < least + kSameShortfall && its_conflict > conflict;
-    if (lacking > least - kSameShortfall && !lasts_longer) return;
-    least = lacking;
-    conflict = its_conflict;
-    best = &motion;
-  };
-  if (has_proposal_) consider(proposed_, proposal_conflict_);
-  if (may_stop) consider(stop_, epoch);
-  if (best != &kept_) {
-    record.motions.commit(*best);
-    record.planned = true;
-  }
-  return least > 0.0 ? Reason::kNoSafePlan : Reason::kUnsafeRest;
-}
-
 void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& report) {
   if (!flies_whole_plan_) {
     for (std::size_t k = 0; k <= kHorizon; ++k) {
@@ -353,12 +303,8 @@ void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& re
   if (report.reason == Reason::kNone && !report.solved && !rests) report.reason = Reason::kSolverFailed;
   const bool on_new_plan = report.reason == Reason::kNone;
   const bool gives_way = report.reason == Reason::kGivesWayToObstacle;
-  if (on_new_plan && record.deviation.norm() > parameters_.limits.tracking_margin) report.reason = Reason::kStraying;
-  if (on_new_plan && record.following.isNotFollowing()) report.reason = Reason::kNotFollowing;
-  if (on_new_plan && record.off_plan) {
-    report.reason = Reason::kOffPlan;
-    report.deviation = record.off_plan_distance;
-  }
+  if (on_new_plan) report.reason = record.reasonOff(parameters_);
+  if (report.reason == Reason::kOffPlan) report.deviation = record.off_plan_distance;
   report.state = on_new_plan || gives_way ? UavState::kTracking : UavState::kFallback;
   reportTraffic(record.traffic, report);
   const bool is_slow = record.start.v.norm() < kStanding * parameters_.limits.max_speed;

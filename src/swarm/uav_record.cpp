@@ -166,6 +166,13 @@ void UavRecord::loseSight(const Parameters& parameters) {
   }
 }
 
+Reason UavRecord::reasonOff(const Parameters& parameters) const {
+  if (off_plan) return Reason::kOffPlan;
+  if (following.isNotFollowing()) return Reason::kNotFollowing;
+  if (following.isBeyondNoise()) return Reason::kOffMotion;
+  return deviation.norm() > parameters.limits.tracking_margin ? Reason::kStraying : Reason::kNone;
+}
+
 MotionDoubt UavRecord::doubt(const InputParameters& input) const {
   if (!unseen || !monitor.trusted()) return {};
   return {monitor.trusted()->stamp, input.lost_growth_rate, input.lost_growth_limit};

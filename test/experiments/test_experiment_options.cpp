@@ -121,7 +121,6 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
   const std::vector<Mistake> mistakes = {
       {{}, "no command"},
       {{"flye"}, "unknown command \"flye\""},
-      {{"compare"}, "unknown command"},
       {{"fly"}, "no scenario file"},
       {{"fly", "a.yaml", "--jsn", "x"}, "unknown option --jsn"},
       {{"fly", "a.yaml", "--json"}, "--json: a value is missing"},
@@ -157,7 +156,7 @@ TEST(ExperimentOptions, RefusesEveryMistakeAndSaysWhy) {
       {{"rehearse", "--hours", "1e6"}, "more than a thousand hours"},
       {{"rehearse", "--uavs", "6", "7"}, "one number"},
       {{"circle_swap", "--hours", "1"}, "does not go with this command"},
-      {{"fly", "a.yaml", "--joint"}, "--joint: not supported yet"},
+      {{"compare", "a.yaml", "--joint"}, "--joint: does not go with this command"},
       {{"fly", "a.yaml", "--latency", "-0.1"}, "--latency: expected a number in [0, 10] [s], not \"-0.1\""},
       {{"fly", "a.yaml", "--latency", "100"}, "--latency: expected a number in [0, 10] [s], not \"100\""},
       {{"fly", "a.yaml", "--latency", "0.1s"}, "--latency: expected a number in [0, 10] [s], not \"0.1s\""},

@@ -166,7 +166,7 @@ TEST(FaultFlights, WindBlowsItsVehicleAwayAndLetsItComeBack) {
 
 TEST(FaultFlights, TheShippedRehearsalKeepsClearAndTellsEachFault) {
   const Mission mission = loadMission("config/scenarios/rehearsal.yaml", {});
-  const RunResult run = flyExperimentRun({mission, 0, false, {}});
+  const RunResult run = flyExperimentRun({mission, 0, false, PlanningMode::kIterative, {}});
   EXPECT_TRUE(run.flown.collisions.empty());
   EXPECT_EQ(run.faults.kinds.size(), faultKinds().size() - 1) << "all but planner_dead";
   for (const FaultTally& tally : run.faults.kinds) {

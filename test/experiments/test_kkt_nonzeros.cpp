@@ -23,9 +23,10 @@ class KktCount {
  public:
   explicit KktCount(const Mission& mission) : gains_(makeQpModels(mission.parameters).straight.outputs()) {}
 
-  void addRow(Output output, const Vector3& n) {
+  /// On the outputs of so many UAVs.
+  void addRow(Output output, const Vector3& n, int uavs = 1) {
     // The row and its slack, the slack's sign, both mirrored; the slack's penalty.
-    total_ += 2 * (entries(gains_[static_cast<std::size_t>(output)], n) + 1) + 2 + 1;
+    total_ += 2 * (uavs * entries(gains_[static_cast<std::size_t>(output)], n) + 1) + 2 + 1;
   }
   void addDynamics() {
     for (int k = 0; k < kHorizon; ++k) {
@@ -141,6 +142,22 @@ TEST(KktNonzeros, GrowsByTheSameForEveryUavOrObstacle) {
   EXPECT_EQ(kktNonzeros(mission), two);
   mission.parameters.limits.avoidance = false;
   EXPECT_EQ(kktNonzeros(mission), alone);
+}
+
+// Of one UAV the joint problem is its own; of several, each pair's rows stand once and have the entries of both.
+TEST(KktNonzeros, OfAllUavsAtOnceCountsEachPairOnce) {
+  Mission mission;
+  mission.scenario.obstacles.resize(3);
+  mission.scenario.uavs.resize(1);
+  const long long one = jointKktNonzeros(mission);
+  EXPECT_EQ(one, kktNonzeros(mission));
+  const Vector3 full(1.0, 1.0, 1.0);
+  KktCount pair(mission);
+  for (int k = 0; k < kHorizon; ++k) {
+    for (std::size_t point = k > 0 ? 0 : 3; point < 4; ++point) pair.addRow(kControlPoints[point], full, 2);
+  }
+  mission.scenario.uavs.resize(6);
+  EXPECT_EQ(jointKktNonzeros(mission), 6 * one + 15 * pair.total());
 }
 
 }  // namespace

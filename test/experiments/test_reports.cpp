@@ -59,6 +59,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
   const std::set<std::string> keys = {"scenario",
                                       "seed",
                                       "uavs",
+                                      "problem",
                                       "cycles",
                                       "cycle_ms",
                                       "cycle_cpu_ms",

@@ -61,6 +61,7 @@ TEST(NodeParameters, NamesEveryFaultAndWhatWasExpected) {
       {"trajectory_topic", std::string("command"), "{uav}"},
       {"odometry_twist_frame", std::string("boddy"), "body or world"},
       {"setpoint_delivery", std::string("soon"), "at_once or at_epoch"},
+      {"mode", std::string("all"), "iterative, joint or groups"},
       {"planning_share", 0.0, "[0.001, 1]"},
       {"planning_share", 1.1, "[0.001, 1]"},
       {"setpoint_dt", 0.0, "[0.001, 1]"},

@@ -54,6 +54,12 @@ class ParameterFaultsTest(unittest.TestCase):
         self.assertEqual(status, 1, output)
         self.assertIn('/nowhere/none.yaml', output)
 
+    def test_joint_mode_is_refused_for_swarms_that_are_too_large(self):
+        scenario = self.scenario.replace('crossing', 'paper_16')
+        status, output = run('planner_node', 'joint_planner', {'scenario': scenario, 'mode': 'joint'})
+        self.assertEqual(status, 1, output)
+        self.assertIn('mode: is joint; the joint problem is solved for at most 8 UAVs, the scenario has 16', output)
+
     def test_another_speed_needs_simulated_time(self):
         rospy.set_param('/use_sim_time', False)
         status, output = run('quad_sim_node', 'fast_sim', {'scenario': self.scenario, 'speed': 5})

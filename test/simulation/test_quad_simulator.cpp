@@ -4,6 +4,7 @@
 // it was asked to, would fly what no quadrotor can, or would be upset by a bad message.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
@@ -93,7 +94,61 @@ TEST_F(QuadSimulatorTest, TracksAPlannedTrajectory) {
     EXPECT_NEAR(quad.trackingError(), (quad.state().p - wanted).norm(), 1e-6);
   }
   EXPECT_GT(farthest, 3.0);  // it was a flight
-  EXPECT_LT(worst, 0.05);
+  EXPECT_LT(worst, 0.005);
+}
+
+/// To and fro with the most jerk, each stage 0.15 s.
+Trajectory jerkyPlan(double epoch, const Vector3& start, double jerk) {
+  Trajectory plan;
+  plan.epoch = epoch;
+  plan.dt = 0.15;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    const double sign = k % 4 == 0 || k % 4 == 3 ? 1.0 : -1.0;
+    plan.jerks[k] = sign * jerk * Vector3(0.6, 0.0, 0.8);
+  }
+  KinematicState x;
+  x.p = start;
+  rollOut(x, plan);
+  return plan;
+}
+
+double worstErrorOf(QuadSimulator& quad, const Trajectory& plan) {
+  double worst = 0.0;
+  for (double t = plan.epoch; t < plan.epoch + plan.duration(); t += 0.005) {
+    quad.advanceTo(t);
+    worst = std::max(worst, (quad.state().p - plan.at(t).p).norm());
+  }
+  return worst;
+}
+
+// tracking_error of a small room is 5 mm.
+TEST_F(QuadSimulatorTest, JumpsOfJerkHardlyTakeItOffItsPlan) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  const Trajectory plan = jerkyPlan(0.15, start_, 0.5 * parameters_.limits.max_jerk);
+  ASSERT_TRUE(quad.receive(sampled(plan)));
+  EXPECT_LT(worstErrorOf(quad, plan), 0.0025);
+}
+
+// What that is owed to: it turns in time. Where each jump comes as a surprise it is late.
+TEST_F(QuadSimulatorTest, JumpsOfJerkThatAreNotKnownBeforeDoTakeItOffItsPlan) {
+  QuadSimulator quad(parameters_, start_, 1);
+  quad.advanceTo(0.0);
+  const Trajectory plan = jerkyPlan(0.15, start_, 0.5 * parameters_.limits.max_jerk);
+  double worst = 0.0;
+  for (std::size_t k = 0; k < kHorizon; ++k) {
+    Trajectory known = plan;
+    std::fill(known.jerks.begin() + static_cast<std::ptrdiff_t>(k) + 1, known.jerks.end(), plan.jerks[k]);
+    rollOut(plan.knots[0], known);
+    const double begin = plan.epoch + static_cast<double>(k) * plan.dt;
+    quad.advanceTo(begin);
+    ASSERT_TRUE(quad.receive(sampled(known)));
+    for (double t = begin; t < begin + plan.dt; t += 0.005) {
+      quad.advanceTo(t);
+      worst = std::max(worst, (quad.state().p - plan.at(t).p).norm());
+    }
+  }
+  EXPECT_GT(worst, 0.01);
 }
 
 TEST_F(QuadSimulatorTest, FlyingTakesNoMemory) {

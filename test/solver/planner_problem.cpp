@@ -43,11 +43,11 @@ Vector3 valueOf(const planner_qp_parameters& model, int output, const State& x) 
   return gains[0] * x.p + gains[1] * x.v + gains[2] * x.a;
 }
 
-Vector3 jerkOf(const planner_qp_solver& answer, int k) {
-  return Vector3(answer.u[k][0], answer.u[k][1], answer.u[k][2]);
+Vector3 jerkOf(const PlannerAnswer& answer, int k) {
+  return Vector3(answer.u[at(k)][0], answer.u[at(k)][1], answer.u[at(k)][2]);
 }
 
-std::array<State, kHorizon + 1> rollOut(const PlannerProblem& problem, const planner_qp_solver& answer) {
+std::array<State, kHorizon + 1> rollOut(const PlannerProblem& problem, const PlannerAnswer& answer) {
   std::array<State, kHorizon + 1> x;
   const double* x0 = problem.x0.data();
   x[0] = {Vector3(x0[0], x0[1], x0[2]), Vector3(x0[3], x0[4], x0[5]), Vector3(x0[6], x0[7], x0[8])};
@@ -133,10 +133,11 @@ struct RowSums {
   std::vector<double> multiplier, slack;  ///< by the solver's identity
 };
 
-RowSums byIdentity(const planner_qp_solver& answer) {
-  RowSums sums{std::vector<double>(PLANNER_QP_ENTRIES + PLANNER_QP_MAX_QUADRATIC, 0.0),
-               std::vector<double>(PLANNER_QP_ENTRIES + PLANNER_QP_MAX_QUADRATIC, 0.0)};
-  for (int i = 0; i < answer.active_count; ++i) {
+RowSums byIdentity(const PlannerProblem& problem, const PlannerAnswer& answer) {
+  std::size_t identities = PLANNER_QP_ENTRIES + PLANNER_QP_MAX_QUADRATIC;
+  for (const PlannerProblem::Row& row : problem.rows) identities = std::max(identities, at(row.id + 1));
+  RowSums sums{std::vector<double>(identities, 0.0), std::vector<double>(identities, 0.0)};
+  for (std::size_t i = 0; i < answer.active_id.size(); ++i) {
     sums.multiplier[at(answer.active_id[i])] = answer.multiplier[i];
     sums.slack[at(answer.active_id[i])] = answer.slack[i];
   }
@@ -200,6 +201,11 @@ PlannerProblem randomPlannerProblem(const planner_qp_parameters& model, Random& 
   return problem;
 }
 
+Vector3 valueOf(const planner_qp_parameters& model, int output, const double* state) {
+  const Eigen::Map<const Vector3> p(state), v(state + 3), a(state + 6);
+  return valueOf(model, output, State{p, v, a});
+}
+
 void load(PlannerProblem& problem, planner_qp_solver& solver) {
   planner_qp_clear_rows(&solver);
   std::copy(problem.x0.begin(), problem.x0.end(), solver.x0);
@@ -220,11 +226,18 @@ void load(PlannerProblem& problem, planner_qp_solver& solver) {
   }
 }
 
-PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer) {
+PlannerAnswer::PlannerAnswer(const planner_qp_solver& solver)
+    : active_id(solver.active_id, solver.active_id + solver.active_count),
+      multiplier(solver.multiplier, solver.multiplier + solver.active_count),
+      slack(solver.slack, solver.slack + solver.active_count) {
+  for (int k = 0; k < kHorizon; ++k) std::copy(solver.u[k], solver.u[k] + PLANNER_QP_INPUTS, u[at(k)].begin());
+}
+
+PlannerKkt kktOf(const PlannerProblem& problem, const PlannerAnswer& answer) {
   PlannerKkt kkt;
   const planner_qp_parameters& m = problem.model;
   const std::array<State, kHorizon + 1> x = rollOut(problem, answer);
-  const RowSums sums = byIdentity(answer);
+  const RowSums sums = byIdentity(problem, answer);
   std::array<State, kHorizon + 1> g, size;  // gradients in the stage's state, and the sizes of their terms
   double outputs = 1.0;
   for (int k = 1; k <= kHorizon; ++k) {
@@ -280,7 +293,7 @@ PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer)
   return kkt;
 }
 
-PlannerCost costOf(const PlannerProblem& problem, const planner_qp_solver& answer) {
+PlannerCost costOf(const PlannerProblem& problem, const PlannerAnswer& answer) {
   PlannerCost cost;
   const auto add = [&](double term) {
     cost.value += term;

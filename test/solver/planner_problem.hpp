@@ -40,6 +40,20 @@ PlannerProblem randomPlannerProblem(const planner_qp_parameters& model, Random& 
 
 void load(PlannerProblem& problem, planner_qp_solver& solver);
 
+/// The value of an output at a state as the solver gives it.
+Vector3 valueOf(const planner_qp_parameters& model, int output, const double* state);
+
+/// Inputs, and the rows that are active with their multipliers.
+struct PlannerAnswer {
+  std::array<std::array<double, PLANNER_QP_INPUTS>, PLANNER_QP_HORIZON> u{};
+  std::vector<int> active_id;
+  std::vector<double> multiplier, slack;
+
+  PlannerAnswer() = default;
+  /// That of a solver. Implicit: it stands for its answer.
+  PlannerAnswer(const planner_qp_solver& solver);
+};
+
 /// How far an answer is from the optimum, by conditions that are checked on its inputs and multipliers alone.
 struct PlannerKkt {
   double stationarity = 0.0;  ///< of the Lagrangian's gradient in the inputs, over the size of its terms
@@ -47,13 +61,13 @@ struct PlannerKkt {
   double price = 0.0;        ///< what the rows' errors cost: multipliers times room left, and penalties of violations
   double multipliers = 0.0;  ///< outside of their range, over the penalty
 };
-PlannerKkt kktOf(const PlannerProblem& problem, const planner_qp_solver& answer);
+PlannerKkt kktOf(const PlannerProblem& problem, const PlannerAnswer& answer);
 
 /// Objective of the answer's inputs, states by roll-out and slacks at their best, and the sum of its terms' sizes,
 /// which rounding errors go with.
 struct PlannerCost {
   double value = 0.0, size = 0.0;
 };
-PlannerCost costOf(const PlannerProblem& problem, const planner_qp_solver& answer);
+PlannerCost costOf(const PlannerProblem& problem, const PlannerAnswer& answer);
 
 }  // namespace swarm_planner

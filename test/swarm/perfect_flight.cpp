@@ -43,9 +43,9 @@ bool identical(const CommittedMotion& a, const CommittedMotion& b) {
   return same;
 }
 
-PerfectFlight::PerfectFlight(const Mission& mission, double start_time)
+PerfectFlight::PerfectFlight(const Mission& mission, double start_time, PlanningMode mode)
     : mission_(mission),
-      planner_(mission),
+      planner_(mission, mode),
       start_time_(start_time),
       now_(start_time),
       flown_(mission.scenario.uavs.size()) {

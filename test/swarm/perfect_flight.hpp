@@ -30,7 +30,7 @@ bool identical(const CommittedMotion& a, const CommittedMotion& b);
 /// vehicle that gets no new one flies the last one to its end and rests there.
 class PerfectFlight {
  public:
-  explicit PerfectFlight(const Mission& mission, double start_time = 0.0);
+  explicit PerfectFlight(const Mission& mission, double start_time = 0.0, PlanningMode mode = PlanningMode::kIterative);
 
   /// One cycle: measure, plan for the next epoch within `budget` [s], fly until then. `tamper` may spoil the snapshot
   /// before.

@@ -93,8 +93,9 @@ class NoHeap : public ::testing::Test {
 /// threads any of them may get its first UAV in a later cycle.
 std::int64_t heapCallsOfFlight(const Mission& mission, int cycles,
                                const std::function<void(int, Snapshot&)>& tamper = nullptr,
-                               const std::function<void(int, SwarmPlanner&)>& command = nullptr) {
-  SwarmPlanner planner(mission);
+                               const std::function<void(int, SwarmPlanner&)>& command = nullptr,
+                               PlanningMode mode = PlanningMode::kIterative) {
+  SwarmPlanner planner(mission, mode);
   const double period = mission.parameters.time.cycle_period;
   Snapshot snapshot;
   snapshot.uavs.resize(mission.scenario.uavs.size());
@@ -298,6 +299,11 @@ TEST_F(NoHeap, CheckingPlansAllocatesNothing) {
   }
   EXPECT_GT(accepted, 5);
   EXPECT_LT(accepted, 95);
+}
+
+TEST_F(NoHeap, PlanningTheSwarmAtOnceAllocatesNothing) {
+  EXPECT_EQ(heapCallsOfFlight(makeMission(crossing(), {}, "crossing"), 60, nullptr, nullptr, PlanningMode::kJoint), 0);
+  EXPECT_EQ(heapCallsOfFlight(makeMission(paperSix(), {}, "paper_six"), 60, nullptr, nullptr, PlanningMode::kJoint), 0);
 }
 
 }  // namespace

@@ -107,6 +107,21 @@ TEST(StrayingUav, IsToldOfAndItsPlansBeginWhereItIs) {
   EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kNone) << "it flies again";
 }
 
+TEST(StrayingUav, ThatWasPushedIsToldOfAtOnce) {
+  PerfectFlight flight(makeTestMission({Vector3(0, 0, 10)}, {Vector3(60, 0, 10)}, 3.0));
+  flight.cycles(10);
+  const auto pushed = [&flight](double speed) {
+    return flight.cycle([speed](Snapshot& snapshot) { snapshot.uavs[0].v.y() += speed; }).uavs[0];
+  };
+  EXPECT_EQ(pushed(0.3).reason, Reason::kNone) << "that may be noise";
+  flight.cycles(5);
+  const UavReport report = pushed(1.0);
+  EXPECT_EQ(report.reason, Reason::kOffMotion);
+  EXPECT_EQ(report.state, UavState::kTracking);
+  flight.cycles(2);
+  EXPECT_EQ(flight.planner().report().uavs[0].reason, Reason::kNone);
+}
+
 // Blown out of the workspace: it may not go farther, and has to be able to come back.
 TEST(StrayingUav, OutsideTheWorkspaceComesBack) {
   Mission mission = makeTestMission({Vector3(0, 0, 10)}, {Vector3(60, 0, 10)}, 3.0);

@@ -23,11 +23,12 @@ class CyclePlanner {
   virtual double processorTime() const { return 0.0; }
 };
 
-/// Problem 2: one UAV after the other.
-class IterativePlanner : public CyclePlanner {
+/// Problem 2, one UAV after the other, or Problem 1, all at once.
+class SwarmCyclePlanner : public CyclePlanner {
  public:
   /// `mission` must outlive the planner.
-  explicit IterativePlanner(const Mission& mission) : mission_(mission), planner_(mission) {}
+  SwarmCyclePlanner(const Mission& mission, PlanningMode mode)
+      : mission_(mission), mode_(mode), planner_(mission, mode) {}
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
     // Guides of one cycle are used in the next, whatever their search takes: a run can be repeated.
@@ -38,7 +39,7 @@ class IterativePlanner : public CyclePlanner {
     return report;
   }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
-  void restart() override { planner_ = SwarmPlanner(mission_); }
+  void restart() override { planner_ = SwarmPlanner(mission_, mode_); }
   double processorTime() const override { return processor_time_; }
 
   /// See SwarmPlanner::setReference().
@@ -50,8 +51,15 @@ class IterativePlanner : public CyclePlanner {
 
  private:
   const Mission& mission_;
+  PlanningMode mode_;
   SwarmPlanner planner_;
   double processor_time_ = 0.0;
+};
+
+/// Problem 2.
+class IterativePlanner : public SwarmCyclePlanner {
+ public:
+  explicit IterativePlanner(const Mission& mission) : SwarmCyclePlanner(mission, PlanningMode::kIterative) {}
 };
 
 }  // namespace swarm_planner

@@ -8,8 +8,8 @@
 
 namespace swarm_planner {
 
-/// Flies a run with Problem 2's planner. If faults are injected, what became of them is in the result; in a rehearsal
-/// UAVs get new goals all the time. `observers` are told in the order given.
+/// Flies a run with the planner of its mode. If faults are injected, what became of them is in the result; in a
+/// rehearsal UAVs get new goals all the time. `observers` are told in the order given.
 RunResult flyExperimentRun(const ExperimentRun& run, std::vector<RunObserver*> observers = {});
 
 }  // namespace swarm_planner

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "swarm_planner/swarm/planning_mode.hpp"
+
 namespace swarm_planner {
 
 /// The command line cannot be used; what() says what is wrong and what was expected.
@@ -20,6 +22,7 @@ class OptionError : public std::runtime_error {
 enum class ExperimentCommand {
   kHelp,
   kFly,
+  kCompare,
   kMonteCarlo,
   kScaling,
   kCircleSwap,
@@ -38,7 +41,7 @@ enum class ExperimentCommand {
 /// What swarm_experiment is asked to do.
 struct ExperimentOptions {
   ExperimentCommand command = ExperimentCommand::kHelp;
-  std::vector<std::string> scenario_files;  ///< fly
+  std::vector<std::string> scenario_files;  ///< fly, compare; of compare empty for paperSix()
   std::vector<int> uavs;                    ///< the others; scaling: several
   std::optional<double> radius;             ///< circle_swap [m]
   std::optional<double> perturbation;       ///< circle_swap, gap, box_head_on, u_trap, same_goal [m]
@@ -51,8 +54,9 @@ struct ExperimentOptions {
   std::vector<std::uint64_t> seeds;
   /// Parameters of the simulation that --noise, --bias, --wind, --latency, --jitter and --drop set.
   std::map<std::string, double> disturbances;
-  bool shortest_paths = false;  ///< flown paths are measured against them
-  std::optional<int> threads;   ///< of the planner
+  bool shortest_paths = false;                   ///< flown paths are measured against them
+  PlanningMode mode = PlanningMode::kIterative;  ///< fly --joint: Problem 1
+  std::optional<int> threads;                    ///< of the planner
   /// Parameters that are to be false, those of negative_controls.hpp.
   std::set<std::string> left_out;
   bool as_paper = false;  ///< the paper's method alone

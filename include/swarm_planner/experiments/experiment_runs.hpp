@@ -14,7 +14,8 @@ namespace swarm_planner {
 struct ExperimentRun {
   Mission mission;
   std::uint64_t seed = 0;
-  bool shortest_paths = false;     ///< flown paths are to be measured against them
+  bool shortest_paths = false;  ///< flown paths are to be measured against them
+  PlanningMode mode = PlanningMode::kIterative;
   std::optional<Workspace> goals;  ///< a rehearsal: where UAVs get random goals, one after the other
 };
 

@@ -23,4 +23,8 @@ namespace swarm_planner {
 /// but for the known x_0, 9 for x_k.
 long long kktNonzeros(const Mission& mission);
 
+/// The same of the QP of all UAVs at once: each with its own dynamics, cost and rows, and a row for each pair of them
+/// on every control point, with the entries of both.
+long long jointKktNonzeros(const Mission& mission);
+
 }  // namespace swarm_planner

@@ -15,7 +15,7 @@ namespace swarm_planner {
 class RandomMissions : public RunDirector {
  public:
   /// `field`: where goals are. `mission` and `planner` must outlive this.
-  RandomMissions(const Mission& mission, const Workspace& field, IterativePlanner& planner, std::uint64_t seed);
+  RandomMissions(const Mission& mission, const Workspace& field, SwarmCyclePlanner& planner, std::uint64_t seed);
 
   void beforeCycle(double now, const std::vector<QuadSimulator>& vehicles, bool restarted) override;
   double obstacleTime(std::size_t index, double t) const override;
@@ -36,7 +36,7 @@ class RandomMissions : public RunDirector {
   bool isFree(const Vector3& goal, std::size_t uav) const;
 
   Workspace field_;
-  IterativePlanner& planner_;
+  SwarmCyclePlanner& planner_;
   RandomStream random_;
   double speed_;                           ///< of the targets [m/s]
   double apart_;                           ///< of two goals [m]

@@ -12,6 +12,7 @@
 #include "swarm_planner/experiments/flight_bounds.hpp"
 #include "swarm_planner/experiments/statistics.hpp"
 #include "swarm_planner/simulation/run_monitor.hpp"
+#include "swarm_planner/swarm/planning_mode.hpp"
 
 namespace swarm_planner {
 
@@ -20,12 +21,13 @@ struct RunResult {
   std::string scenario;
   std::uint64_t seed = 0;
   std::size_t uavs = 0;
+  PlanningMode mode = PlanningMode::kIterative;
   SimulationParameters simulation;    ///< the disturbances that it was flown with, among others
   bool as_paper = false;              ///< the paper's method alone
   std::vector<std::string> left_out;  ///< of negative_controls.hpp
   std::size_t cycles = 0;
-  Distribution cycle_ms;  ///< planning of the whole swarm, snapshot in to plans out [ms]
-  Distribution uav_ms;    ///< planning of one UAV [ms]
+  Distribution cycle_ms;      ///< planning of the whole swarm, snapshot in to plans out [ms]
+  Distribution uav_ms;        ///< planning of one UAV [ms]
   Distribution cycle_cpu_ms;  ///< processor time of the same, of the thread that calls the planner [ms]
   Histogram cycle_ms_histogram;
   Histogram uav_ms_histogram;

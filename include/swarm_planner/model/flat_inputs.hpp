@@ -37,7 +37,8 @@ Attitude attitudeFor(const Vector3& v, const Vector3& a, const VehicleParameters
 Vector4 rotorSpeeds(double thrust, double tau_phi, double tau_theta, const VehicleParameters& vehicle,
                     bool* saturated = nullptr);
 
-/// The whole inversion within a segment of constant jerk (snap zero).
-FlatInputs flatInputs(const Vector3& v, const Vector3& a, const Vector3& jerk, const VehicleParameters& vehicle);
+/// The whole inversion; within a segment of constant jerk `snap` [m/s^4] is zero.
+FlatInputs flatInputs(const Vector3& v, const Vector3& a, const Vector3& jerk, const VehicleParameters& vehicle,
+                      const Vector3& snap = Vector3::Zero());
 
 }  // namespace swarm_planner

@@ -89,6 +89,14 @@ using SegmentPlanes = std::vector<SegmentPlane>;
 /// knots alone.
 Violation planViolation(const UavProblem& problem, const Trajectory& plan, const SegmentPlanes& planes = {});
 
+/// Adds what planViolation() counts for one body. `plane`: the first in [plane, end) of those known for `index`, which
+/// is what their SegmentPlane::body says, or a later body's, or `end`.
+void addBodyViolations(const UavProblem& problem, const MovingBody& body, std::size_t index, const PlanPoints& points,
+                       SegmentPlanes::const_iterator plane, SegmentPlanes::const_iterator end, Violation& violation);
+
+/// The L1 and quadratic penalties.
+double penaltyOf(const Violation& violation, const SqpParameters& sqp);
+
 /// The exact penalty function that every step has to decrease.
 struct Merit {
   double value = 0.0;              ///< cost (17) plus the L1 and quadratic penalties

@@ -6,6 +6,7 @@
 
 #include "swarm_planner/ros/node_parameters.hpp"
 #include "swarm_planner/ros/odometry_conversion.hpp"
+#include "swarm_planner/swarm/planning_mode.hpp"
 
 namespace swarm_planner {
 
@@ -18,7 +19,8 @@ enum class SetpointDelivery {
 /// Parameters that planner_node has beside those of the planner: topics, frames, time to plan, messages, markers.
 /// config/node.yaml describes each.
 struct PlannerNodeOptions {
-  std::string scenario;          ///< path of the scenario file
+  std::string scenario;  ///< path of the scenario file
+  PlanningMode mode = PlanningMode::kIterative;
   std::string odometry_topic;    ///< with {uav}
   std::string trajectory_topic;  ///< with {uav}
   std::string planning_frame;    ///< empty: the scenario's frame_id

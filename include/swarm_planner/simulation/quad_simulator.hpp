@@ -18,7 +18,8 @@ namespace swarm_planner {
 ///   a_c = a_s + position_gain (p_s - p) + velocity_gain (v_s - v)      commanded acceleration, s: setpoint
 ///   A   = a_c + (k_d / M) v                                            drag compensated, eq. (3)
 ///   phi, theta, T from A by (4) and (5), after A is limited to what the rotors and max_tilt allow;
-///   angular accelerations: those of the flat inputs plus attitude_gain and attitude_rate_gain on the errors.
+///   angular accelerations: those of the flat inputs plus attitude_gain and attitude_rate_gain on the errors. Jerk and
+///   snap of the setpoint are means over a short time before and after: the vehicle turns in time for jumps of jerk.
 /// Rotor speeds saturate at [0, max_rotor_speed]. The state stays finite whatever is received.
 ///
 /// Gusts of wind velocity w act through the drag of (1), -(k_d / M) (v - w); the controller does not know of them.

@@ -19,6 +19,9 @@ struct MotionSetpoint {
 /// Greatest number in a trajectory that can be flown [m, m/s, m/s^2, s].
 constexpr double kMostSetpoint = 0.999e6;
 
+/// What was asked for is known so long [s].
+constexpr double kSetpointMemory = 0.1;
+
 /// True if `trajectory` can be flown: at least one point, every number finite and at most kMostSetpoint in magnitude
 /// (its epoch and yaw only finite), times from the start >= 0 and at least 1e-4 s apart.
 bool isFlyable(const SetpointTrajectory& trajectory);
@@ -39,7 +42,7 @@ class SetpointTrack {
   /// that never begin would wait for good. `now` [s]: what it may forget. At most 64 wait; the last to begin gives way.
   bool receive(const SetpointTrajectory& trajectory, double now);
 
-  /// The setpoint at `t` [s]. No heap allocation.
+  /// The setpoint at `t` [s], not earlier than kSetpointMemory before the newest trajectory came. No heap allocation.
   MotionSetpoint at(double t) const;
 
   /// Forgets every trajectory and holds `position` [m].

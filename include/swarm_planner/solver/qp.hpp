@@ -35,6 +35,8 @@ struct ActiveRows {
   int count = 0;
   std::array<ActiveRow, kCapacity> rows;
 
+  /// Puts a row where it belongs; drops it if there is no more room.
+  void insert(const ActiveRow& row);
   /// Moves all `stages` stages towards the horizon's start; what passes it is dropped.
   void shift(int stages);
 };

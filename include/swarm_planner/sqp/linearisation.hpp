@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
 #pragma once
 
+#include <optional>
+
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/qp.hpp"
 
@@ -13,6 +15,15 @@ struct QpModels {
   QpModel corner;
 };
 QpModels makeQpModels(const Parameters& parameters);
+
+/// Where a row on a segment's control point goes.
+struct RowPlace {
+  int stage = 1;
+  Output output = Output::kPosition;
+  RowSource source = 0;  ///< what to add to a body's: a knot belongs to two segments
+};
+/// Of control point i = 0..3 of segment k; empty for those of the first segment that the start fixes.
+std::optional<RowPlace> controlPointPlace(int k, int i);
 
 /// Poses the QP of a problem at an iterate: the cost's gradient is exact there, its curvature that of the model, at
 /// least that of cost (16), plus that of the robustness function, projected to be positive; half-spaces for the bodies

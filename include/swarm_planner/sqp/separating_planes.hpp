@@ -17,4 +17,12 @@ constexpr std::size_t kSegmentPlaneRoom = 2 * kMostSegmentPlanes * kHorizon;
 /// plane is the one of a way past it (PassingSide). `planes` has to have kSegmentPlaneRoom; takes no heap then.
 void findSeparatingPlanes(const UavProblem& problem, const Trajectory& iterate, double band, SegmentPlanes& planes);
 
+/// Appends those of one body, at most kHorizon; `index` is what their SegmentPlane::body says.
+void addSeparatingPlanes(const UavProblem& problem, const MovingBody& body, std::size_t index, const PlanPoints& points,
+                         double band, SegmentPlanes& planes);
+
+/// The first control point of its segment that planes[i] has to be a row for: a knot belongs to two segments, and where
+/// the plane of the segment before asks as much of it, one row does.
+int firstRowPoint(const FlightBounds& bounds, const SegmentPlanes& planes, std::size_t i);
+
 }  // namespace swarm_planner

@@ -56,7 +56,8 @@ enum class Reason : std::uint8_t {
   kEndNotClear,         ///< the end of what it follows is inside something: it waits as near as is safe
   kGivesWay,            ///< traffic, as are those that follow, with the other one in UavReport::partner: it stays aside
   kWaits,               ///< the other stands in its way
-  kParked               ///< beside its end, which the other occupies
+  kParked,              ///< beside its end, which the other occupies
+  kOffMotion            ///< as measured last, by more than noise explains: pushed, or it does not follow
 };
 /// Whether the operator has to look at once: safety cannot be assured any more.
 bool isAlarm(Reason reason);

@@ -41,6 +41,8 @@ class FollowingWatch {
   bool isNotFollowing() const { return finding_ == Finding::kDoesNotFollow; }
   /// Whether the newest measurement was beyond what can be explained, and the vehicle is known not to follow.
   bool isOff() const { return is_off_ && isNotFollowing(); }
+  /// Whether the newest measurement was beyond what can be explained, be it by a push alone.
+  bool isBeyondNoise() const { return is_off_; }
 
  private:
   enum class Finding { kFollows, kSuspected, kDoesNotFollow };

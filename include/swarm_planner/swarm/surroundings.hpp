@@ -7,6 +7,7 @@
 
 #include "swarm_planner/config/parameters.hpp"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
+#include "swarm_planner/problem/joint_problem.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/swarm/neighbour_lists.hpp"
 #include "swarm_planner/swarm/plan_check.hpp"
@@ -44,10 +45,24 @@ class Surroundings {
   /// Finds out which UAVs can meet within the horizon, once motions and starts of all are set.
   void findNeighbours();
   const NeighbourLists& neighbours() const { return neighbours_; }
+  /// Contains the UAV in this cycle and half the distance to keep from it; empty if it is unknown [m].
+  const Box& area(std::size_t uav) const { return areas_[uav]; }
+  /// Of a distance vector of two UAVs [m]: 1 is on the pair ellipsoid, at the distance to keep.
+  double pairGauge(const Vector3& apart) const;
+  /// How close the newest motions of two UAVs come within the horizon, where 1 is the distance to keep; just some
+  /// number above `limit` if it is above. Infinite if one is unknown.
+  double leastPairGauge(std::size_t first, std::size_t second, double limit) const;
 
   /// Whether others were told of the place: only there may a motion of the UAV go that is new in this cycle.
   bool isWithinArea(std::size_t uav, const CommittedMotion& motion) const;
 
+  /// Which UAV's newest motion a body that was collected is, if it is one.
+  static std::optional<std::size_t> uavOf(const MovingBody& body) {
+    if (!body.isUav()) return {};
+    return (body.identity() - 1) / 2;
+  }
+  /// The distances of two UAVs whose motions are certain; `first` and `second` are left to the caller.
+  UavPair pairDistances() const;
   /// Fills problem.bodies with what `uav` can reach from problem.start within the horizon.
   void collect(std::size_t uav, UavProblem& problem) const;
   /// Lists all that a motion of `uav` has to keep clear of, for the check.

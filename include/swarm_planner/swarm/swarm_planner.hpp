@@ -13,15 +13,17 @@
 #include "swarm_planner/swarm/flight_commands.hpp"
 #include "swarm_planner/swarm/flight_memory.hpp"
 #include "swarm_planner/swarm/mission.hpp"
+#include "swarm_planner/swarm/planning_mode.hpp"
 #include "swarm_planner/swarm/snapshot.hpp"
 
 namespace swarm_planner {
 
-/// Problem 2: plans for every UAV, one after the other, with the other UAVs' plans held fixed.
-/// Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
+/// Plans for every UAV: Problem 2, one after the other with the other UAVs' plans held fixed, or Problem 1, all at
+/// once. Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
 class SwarmPlanner {
  public:
-  explicit SwarmPlanner(const Mission& mission);
+  /// Throws std::invalid_argument with planningModeFault() for more UAVs than the mode can plan for.
+  explicit SwarmPlanner(const Mission& mission, PlanningMode mode = PlanningMode::kIterative);
   ~SwarmPlanner();
   SwarmPlanner(SwarmPlanner&&) noexcept;
   SwarmPlanner& operator=(SwarmPlanner&&) noexcept;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "swarm_planner/problem/uav_problem.hpp"
 #include "swarm_planner/solver/generated_solver.hpp"
@@ -13,6 +14,10 @@
 #include "swarm_planner/swarm/uav_record.hpp"
 
 namespace swarm_planner {
+
+/// Changes of the active set per UAV and QP: where a crowd leaves no way, hundreds would go into rows that stay
+/// violated. The step as far as it has come is judged by the merit, and the next QP goes on from its active rows.
+constexpr int kMostQpChanges = 100;
 
 /// Plans for one UAV at a time: poses its problem, solves it, has the plan checked, commits it or falls back, reports.
 /// Holds the memory that this takes, so that every thread needs one of its own.
@@ -34,6 +39,27 @@ class UavPlanner {
   /// rest, from where its motion has it, or what flies without a plan. report.planned only if it has a new motion.
   void keepClear(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
 
+  // plan() in steps, for a solver that plans for several UAVs at once, each with a UavPlanner of its own.
+
+  /// Looks at what there is to keep clear of. False if the UAV rests and needs no plan: that is reported.
+  bool begin(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
+  /// Poses the problem without the bodies of the UAVs that are solved with it, and a plan to start from.
+  void pose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
+            const std::vector<bool>& solved_together, Trajectory& start_plan);
+  const UavProblem& problem() const { return problem_; }
+  /// Another plan to start from: where the guide alone would lead.
+  SqpResult leadAlongGuide(Trajectory& start_plan);
+  /// The motion of the solver's plan, its stop included; not checked.
+  const CommittedMotion& draft(const Trajectory& plan, const UavRecord& record);
+  /// Whether the draft passes the check among what the surroundings hold now.
+  bool passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
+  /// Commits the draft, which has passed.
+  void commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
+                   const SqpResult& result, UavReport& report);
+  /// Plans as plan() does instead of flying the draft, which has not passed. `result`: in vain, but to be reported.
+  void planAnew(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, const SqpResult& result,
+                UavReport& report);
+
  private:
   /// What all of the above begin with.
   void survey(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
@@ -44,6 +70,8 @@ class UavPlanner {
   /// Goes to beside the way of the obstacle that will come to where `kept_` rests. True if a plan is committed.
   bool giveWay(const CheckVerdict& verdict, std::size_t uav, double epoch, UavRecord& record,
                const Surroundings& surroundings, UavReport& report);
+  /// Tells the surroundings and the operator what the UAV does.
+  void conclude(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings, UavReport& report);
   /// A new plan, or what flies without one; the reason why it does.
   Reason flyOn(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings, UavReport& report);
   /// Goes on with the quickest stop from the motion flown, or with the rest on the ground, while that is clear. False
@@ -52,6 +80,14 @@ class UavPlanner {
   /// Solves from record.start and leaves the motion of the longest step towards the solution that passes the check.
   CheckVerdict propose(std::size_t uav, double epoch, UavRecord& record, const Surroundings& surroundings,
                        UavReport& report);
+  /// The plan to start from: that of the motion flown, moved on.
+  void startFromFlown(double epoch, UavRecord& record);
+  void takeResult(const SqpResult& result, UavRecord& record, UavReport& report) const;
+  /// Leaves the motion of the longest step towards the plan in work that passes the check.
+  CheckVerdict decide(std::size_t uav, UavRecord& record, const Surroundings& surroundings, const SqpResult& result,
+                      UavReport& report);
+  /// To `along_`, without anything to keep clear of.
+  SqpResult solveGuideAlone();
   /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
   void solveAlongGuide(ActiveRows& active, SqpResult& result);
   /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.

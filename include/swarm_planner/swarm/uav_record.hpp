@@ -7,6 +7,7 @@
 
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
+#include "swarm_planner/swarm/cycle_report.hpp"
 #include "swarm_planner/swarm/flight_task.hpp"
 #include "swarm_planner/swarm/followed_target.hpp"
 #include "swarm_planner/swarm/following_watch.hpp"
@@ -68,6 +69,8 @@ struct UavRecord {
   void forgetMotions();
   /// Its odometry cannot be planned from in this cycle.
   void loseSight(const Parameters& parameters);
+  /// In what way it is not where it was to be, for the operator; kNone where it is.
+  Reason reasonOff(const Parameters& parameters) const;
   /// How far it may be from its motion while it is not seen.
   MotionDoubt doubt(const InputParameters& input) const;
 

@@ -25,7 +25,7 @@ class Reader : private DescriptionReader {
   void readAll(const YAML::Node& root) {
     allowKeys(root, "",
               {"name", "horizon", "states", "inputs", "parameters", "dynamics", "cost", "outputs", "penalties",
-               "limits", "instruction_sets"});
+               "copies", "limits", "instruction_sets"});
     out_.name = readName(root);
     out_.horizon = integer(root, "", "horizon", 1);
     out_.states = integer(root, "", "states", 1);
@@ -36,6 +36,7 @@ class Reader : private DescriptionReader {
     readCost(root["cost"]);
     out_.penalties = readPenalties(root["penalties"]);
     readOutputs(root["outputs"]);
+    readCopies(root["copies"]);
     readLimits(root["limits"]);
     out_.instruction_sets = readInstructionSets(root["instruction_sets"]);
   }
@@ -150,12 +151,19 @@ class Reader : private DescriptionReader {
     output.bound_penalty = penaltyIndex(node, where);
   }
 
+  void readCopies(const YAML::Node& node) {
+    if (!node) return;
+    allowKeys(node, "copies.", {"most", "couplings"});
+    out_.copies = integer(node, "copies.", "most", 2);
+    out_.max_couplings = integer(node, "copies.", "couplings", 1);
+  }
+
   void readLimits(const YAML::Node& node) {
     allowKeys(node, "limits.", {"active", "changes", "quadratic_terms"});
     out_.max_active = integer(node, "limits.", "active", 1, std::min(64, 2 * out_.horizon * out_.inputs));
     out_.max_changes = integer(node, "limits.", "changes", 1, 400);
     out_.max_quadratic = integer(node, "limits.", "quadratic_terms", 0, 0);
-    if (out_.max_quadratic > out_.max_active) fault("limits.quadratic_terms", "exceeds limits.active");
+    if (out_.copies * out_.max_quadratic > out_.max_active) fault("limits.quadratic_terms", "exceeds limits.active");
   }
 
   static void append(std::ostringstream& text, const char* key, const ExpressionMatrix& m) {
@@ -186,6 +194,7 @@ class Reader : private DescriptionReader {
       for (const Expression& e : o.upper) text << e.code() << ',';
     }
     text << out_.max_active << ';' << out_.max_changes << ';' << out_.max_quadratic;
+    if (out_.copies > 1) text << ';' << out_.copies << ';' << out_.max_couplings;
     return text.str();
   }
 
@@ -200,7 +209,7 @@ bool Output::touchesInput() const {
 
 Description parseDescription(const std::string& yaml_text) { return Reader().read(parseMap(yaml_text)); }
 
-Description loadDescription(const std::string& path) { return parseDescription(readText(path)); }
+Description loadDescription(const std::string& path) { return parseDescription(readDescriptionText(path)); }
 
 }  // namespace codegen
 }  // namespace swarm_planner

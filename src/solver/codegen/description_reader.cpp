@@ -40,6 +40,19 @@ std::string readText(const std::string& path) {
   return text.str();
 }
 
+std::string readDescriptionText(const std::string& path) {
+  const std::string text = readText(path);
+  YAML::Node root = parseMap(text);
+  if (!root["base"]) return text;
+  const std::size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+  YAML::Node merged = parseMap(readText(folder + root["base"].as<std::string>("")));
+  if (merged["base"]) throw DescriptionError(path + ": base: has a base itself");
+  root.remove("base");
+  for (const auto& item : root) merged[item.first.as<std::string>("")] = item.second;
+  return YAML::Dump(merged);
+}
+
 bool isIdentifier(const std::string& name) {
   if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) != 0) return false;
   return std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });

@@ -24,12 +24,13 @@ add_executable(qp_codegen ${QP_CODEGEN_DIR}/../qp_codegen_main.cpp)
 set_target_properties(qp_codegen PROPERTIES CXX_STANDARD 17 CXX_STANDARD_REQUIRED ON)
 target_link_libraries(qp_codegen qp_codegen_core)
 
-# qp_codegen_add_solver(TARGET SPEC): interface library TARGET from config SPEC (its `name` must be TARGET).
+# qp_codegen_add_solver(TARGET SPEC [BASE]): library TARGET from config SPEC (its `name` must be TARGET), and from BASE if
+# SPEC says so.
 function(qp_codegen_add_solver TARGET SPEC)
   set(dir ${CMAKE_CURRENT_BINARY_DIR}/generated)
   file(MAKE_DIRECTORY ${dir})
   add_custom_command(OUTPUT ${dir}/${TARGET}.c ${dir}/${TARGET}.h COMMAND qp_codegen ${SPEC} ${dir}
-    DEPENDS qp_codegen ${SPEC} VERBATIM)
+    DEPENDS qp_codegen ${SPEC} ${ARGN} VERBATIM)
   add_custom_target(${TARGET}_generated DEPENDS ${dir}/${TARGET}.c ${dir}/${TARGET}.h)
   string(TOUPPER ${TARGET} prefix)
   set(flags_baseline "")

@@ -62,6 +62,7 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "INPUTS", d.inputs);
   define(out, "OUTPUTS", static_cast<int>(d.outputs.size()));
   define(out, "COMPONENTS", s.components, "of the longest output");
+  define(out, "ROW_COMPONENTS", (d.copies > 1 ? 2 : 1) * s.components, "that a row can touch");
   define(out, "RATE", d.rate_cost.empty() ? 0 : 1, "there is a cost on u_k - u_{k-1}");
   define(out, "INPUT_LINEAR", d.input_linear ? 1 : 0);
   define(out, "BLOCKS", s.blockCount(), "parts that dynamics, cost and outputs do not couple");
@@ -90,6 +91,14 @@ std::string writeSizes(const Description& d, const Structure& s, const Layout& l
   define(out, "GAINS", d.inputs * z);
   define(out, "LOWERS", std::max(1, d.inputs * (d.inputs + 1) / 2));
   define(out, "WEIGHTS", s.components * (s.components + 1) / 2);
+  if (d.copies > 1) {
+    define(out, "COPIES", d.copies);
+    define(out, "MAX_COUPLINGS", d.max_couplings);
+    define(out, "COPY_OUTPUTS", s.blockCount() * layout.points_padded);
+    define(out, "COPY_IDS",
+           std::max(layout.row_slots, kWidth) + 2 * s.blockCount() * layout.points_padded + d.max_quadratic,
+           "rows, bounds and quadratic terms of a copy");
+  }
   out << "\n/* Outputs, and the slot of row i of an output at a stage index (stage, less the output's first stage). "
          "*/\n";
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
@@ -121,7 +130,7 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
   out << "/* Appends the row normal . y >= offset on an output's value at a stage; returns its identity (as in "
          "active_id\n"
          "   and warm_id), or -1 if the stage does not have the output or no more rows. */\n"
-         "static inline int qpc_add_row(qpc_solver* s, int output, int stage, const double* normal, double offset,\n"
+         "static inline int qpc_add_row(qpc_copy* s, int output, int stage, const double* normal, double offset,\n"
          "                              int penalty) {\n";
   list("first_stage", first_stage);
   list("most_rows", most_rows);
@@ -140,6 +149,12 @@ std::string writeInterface(const Description& d, const Structure& s, const Layou
     out << "},\n";
   }
   out << "  };\n  return QPC_ROW_SLOTS + 2 * (place[output][component] + index) + upper;\n}\n\n";
+  if (d.copies > 1) {
+    out << "static inline int qpc_first_stage(int output) {\n";
+    list("first_stage", first_stage);
+    out << "  return first_stage[output];\n}\n\n";
+  }
+  out << templateText(d.copies > 1 ? "copies.h" : "one_copy.h");
   for (const std::string& set : d.instruction_sets) out << "QPC_DECLARE(" << set << ")\n";
   return out.str();
 }

@@ -107,7 +107,7 @@ void writeChannels(std::ostringstream& out, const Description& d, const Structur
 
 void writeGather(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* The caller's data in lanes. */\n"
-         "QPC_FUNCTION void qpc_gather(const qpc_solver* s, double (*q)[QPC_BLOCK_STATES][QPC_LANES],\n"
+         "QPC_FUNCTION void qpc_gather(const qpc_copy* s, double (*q)[QPC_BLOCK_STATES][QPC_LANES],\n"
          "                             double (*r)[QPC_BLOCK_INPUTS][QPC_LANES], double (*z0)[QPC_LANES]) {\n"
          "  qpc_clear(&z0[0][0], QPC_SWEEP_STATES * QPC_LANES);\n";
   for (int i = 0; i < d.states; ++i) {
@@ -158,7 +158,7 @@ void writeOrderedInputs(std::ostringstream& out, const Description& d, const Str
 
 void writeRollOut(std::ostringstream& out, const Description& d, const Structure& s) {
   out << "/* The states that follow from the inputs. */\n"
-         "static void qpc_roll_out(const qpc_tables* t, qpc_solver* s) {\n  (void)t;\n"
+         "static void qpc_roll_out(const qpc_tables* t, qpc_copy* s) {\n  (void)t;\n"
          "  for (int i = 0; i < QPC_STATES; ++i) s->x[0][i] = s->x0[i];\n"
          "  for (int k = 0; k < QPC_HORIZON; ++k) {\n"
          "    const double *x = s->x[k], *u = s->u[k];\n    double* next = s->x[k + 1];\n    (void)u;\n";
@@ -205,7 +205,7 @@ std::string writeConstants(const Description& d, const Structure& s, const Layou
   }
   out << "#define QPC_BOUND_RANGES " << layout.bound_ranges.size() << "\n";
   list(out, "qpc_bound_range", ranges.empty() ? std::vector<int>{0, 0} : ranges);
-  out << "/* Where component c of an output at stage index 0 lies in qpc_solver.output. */\n"
+  out << "/* Where component c of an output at stage index 0 lies in its copy's outputs. */\n"
          "static const int qpc_output_place[QPC_OUTPUTS][QPC_COMPONENTS] = {\n";
   for (std::size_t o = 0; o < d.outputs.size(); ++o) {
     out << "    {";

@@ -65,15 +65,21 @@ struct Description {
   bool input_linear = false;       ///< the linear term r_k is run-time data
   std::vector<Output> outputs;
   std::vector<Penalty> penalties;
-  int max_quadratic = 0;                      ///< most run-time terms 1/2 w (n . y - c)^2 of a solve
-  int max_active = 64;                        ///< most rows active at a time
-  int max_changes = 400;                      ///< most changes of the active set
+  int max_quadratic = 0;  ///< most run-time terms 1/2 w (n . y - c)^2 of a solve and copy
+  int copies = 1;         ///< most copies of this model in a QP, each with rows of its own
+  int max_couplings = 0;  ///< most run-time rows n_1 . y_1 + n_2 . y_2 >= d on an output of two copies
+  int max_active = 64;    ///< most rows active at a time, of all copies
+  int max_changes = 400;  ///< most changes of the active set
   std::vector<std::string> instruction_sets;  ///< of "baseline", "avx2", "avx512"
   std::uint64_t hash = 0;                     ///< of everything above but instruction_sets
 };
 
 /// A file's text. @throws DescriptionError if it cannot be read
 std::string readText(const std::string& path);
+
+/// A description's text. What the file does not say, the one that its key `base` names says, by a path from its own
+/// folder on. @throws DescriptionError if one cannot be read
+std::string readDescriptionText(const std::string& path);
 
 /// @throws DescriptionError with every fault found
 Description parseDescription(const std::string& yaml_text);

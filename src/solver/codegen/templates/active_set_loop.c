@@ -67,7 +67,7 @@ static int qpc_pass_edge(qpc_solver* s, int i, int at_most) {
 
 /* Makes entry i rigid by taking it out and in again, which costs no digits. Stays out if it depends on the others: the
    scan will find it, should that be wrong. */
-static void qpc_stiffen(const qpc_tables* t, qpc_solver* s, int i) {
+static void qpc_stiffen(qpc_model t, qpc_solver* s, int i) {
   qpc_row row;
   const double lambda = s->lambda[i];
   const int id = s->active_id[i];
@@ -82,7 +82,7 @@ static void qpc_stiffen(const qpc_tables* t, qpc_solver* s, int i) {
 /* Entry i should become rigid, at the multiplier where its penalty bends, but depends on the other entries. Its
    multiplier is handed over to them, which changes neither outputs nor dual objective, until it is 0 or another entry
    leaves or becomes flexible. 0 if that does not come to an end. */
-static int qpc_hand_over(const qpc_tables* t, qpc_solver* s, int i) {
+static int qpc_hand_over(qpc_model t, qpc_solver* s, int i) {
   qpc_row row;
   double rate[QPC_ACTIVE_PADDED];
   double lambda = s->lambda[i];
@@ -113,7 +113,7 @@ static int qpc_hand_over(const qpc_tables* t, qpc_solver* s, int i) {
 
 /* Adds a violated row: its multiplier grows from 0 until the row holds, past every change of the working set on the
    way. */
-static int qpc_enter(const qpc_tables* t, qpc_solver* s, const qpc_row* row, double violation) {
+static int qpc_enter(qpc_model t, qpc_solver* s, const qpc_row* row, double violation) {
   const double self = qpc_gram_self(t, row);
   double lambda = 0.0;
   int soft = row->linear <= 0.0;
@@ -159,7 +159,7 @@ static double qpc_residual(qpc_solver* s) {
   double largest = 0.0;
   for (int i = 0; i < s->active_count; ++i) {
     double r = s->target[i] - s->flexibility[i] * s->lambda[i];
-    for (int c = 0; c < QPC_COMPONENTS; ++c) r -= s->normal[c][i] * s->output[s->point[c][i]];
+    for (int c = 0; c < QPC_ROW_COMPONENTS; ++c) r -= s->normal[c][i] * s->output[s->point[c][i]];
     s->column[i] = r;
     const double size = qpc_magnitude(r) - 1e-14 * qpc_magnitude(s->target[i]);
     if (size > largest && r * r > QPC_ROUNDING * forces * s->gram[i][i]) largest = size;
@@ -170,13 +170,13 @@ static double qpc_residual(qpc_solver* s) {
 
 /* Moves the multipliers of a guess to where the working set's equations hold; entries that reach the end of their range
    on the way leave or change part. The dual objective rises all the way. */
-static int qpc_settle(const qpc_tables* t, qpc_solver* s) {
+static int qpc_settle(qpc_model t, qpc_solver* s) {
   double rate[QPC_ACTIVE_PADDED];
   while (s->iterations < QPC_MAX_CHANGES) {
     int blocking;
     for (int i = 0; i < s->active_count; ++i) {
       double sum = s->target[i];
-      for (int c = 0; c < QPC_COMPONENTS; ++c) sum -= s->normal[c][i] * s->free_output[s->point[c][i]];
+      for (int c = 0; c < QPC_ROW_COMPONENTS; ++c) sum -= s->normal[c][i] * s->free_output[s->point[c][i]];
       s->column[i] = sum;
     }
     for (int i = s->active_count; i < QPC_ROUND_UP(s->active_count, QPC_WIDTH); ++i) s->column[i] = 0.0;
@@ -206,7 +206,7 @@ static void qpc_correct(qpc_solver* s, const double* correction) {
 
 /* Adds a correction as far as no multiplier leaves its range; the one that would then leaves the working set or changes
    part. 1 if all of it was added; -1 if the working set gets no further. */
-static int qpc_correct_within(const qpc_tables* t, qpc_solver* s, const double* correction) {
+static int qpc_correct_within(qpc_model t, qpc_solver* s, const double* correction) {
   double rate[QPC_ACTIVE_PADDED];
   int blocking;
   for (int i = 0; i < QPC_ROUND_UP(s->active_count, QPC_WIDTH); ++i) rate[i] = -correction[i];
@@ -217,19 +217,9 @@ static int qpc_correct_within(const qpc_tables* t, qpc_solver* s, const double* 
   return qpc_pass_edge(s, blocking, rate[blocking] < 0.0) || qpc_hand_over(t, s, blocking) ? 0 : -1;
 }
 
-static int qpc_is_row(const qpc_solver* s, int id) {
-  if (id < 0 || id >= QPC_FIRST_QUADRATIC_ID) return 0;
-  if (id >= QPC_FIRST_BOUND_ID) {
-    const int place = (id - QPC_FIRST_BOUND_ID) / 2;
-    const double bound = (id - QPC_FIRST_BOUND_ID) % 2 != 0 ? s->upper[place] : -s->lower[place];
-    return bound < QPC_UNBOUNDED;
-  }
-  return s->row_offset[id] > -QPC_UNBOUNDED;
-}
-
 /* Adds a row or quadratic term to the working set, unless it nearly depends on it: then there is no telling its share of
    the multipliers. 0 if its penalty does not exist. */
-static int qpc_guess(const qpc_tables* t, qpc_solver* s, int id, double lambda) {
+static int qpc_guess(qpc_model t, qpc_solver* s, int id, double lambda) {
   qpc_row row;
   if (!qpc_load_row(t, s, id, &row)) return 0;
   const double self = qpc_gram_self(t, &row);
@@ -244,10 +234,10 @@ static int qpc_guess(const qpc_tables* t, qpc_solver* s, int id, double lambda) 
 
 /* The working set to start from: the quadratic terms, and the guessed rows. Masked rows are not accepted, which leaves
    out what was guessed twice. */
-static int qpc_start_from(const qpc_tables* t, qpc_solver* s, int guesses) {
+static int qpc_start_from(qpc_model t, qpc_solver* s, int guesses) {
   s->active_count = 0;
   for (int i = 0; i < s->quadratic_count && s->active_count < QPC_MAX_ACTIVE; ++i) {
-    if (!qpc_guess(t, s, QPC_FIRST_QUADRATIC_ID + i, 0.0)) return QPC_BAD_DATA;
+    if (!qpc_guess(t, s, qpc_term_id(s, i), 0.0)) return QPC_BAD_DATA;
   }
   for (int i = 0; i < guesses && s->active_count < QPC_MAX_ACTIVE; ++i) {
     const int id = s->warm_id[i];
@@ -259,7 +249,7 @@ static int qpc_start_from(const qpc_tables* t, qpc_solver* s, int guesses) {
 }
 
 /* Starts from the guess, or without it if that leads nowhere. */
-static int qpc_start(const qpc_tables* t, qpc_solver* s) {
+static int qpc_start(qpc_model t, qpc_solver* s) {
   const int guesses = s->warm_count < 0 ? 0 : s->warm_count > QPC_MAX_ACTIVE ? QPC_MAX_ACTIVE : s->warm_count;
   const int status = qpc_start_from(t, s, guesses);
   if (guesses == 0 || (status == QPC_SOLVED && qpc_all_finite(s->lambda, s->active_count))) return status;
@@ -277,7 +267,7 @@ static void qpc_notice(qpc_solver* s) {
    inputs by less than the tolerance moves them where it is met exactly. That is not so of every small violation, since a
    row that nearly depends on the working set moves the inputs by violation / sqrt(curvature). `self` is the row's Gram
    entry; `least` the working set's smallest. */
-static int qpc_is_faint(const qpc_tables* t, qpc_solver* s, const qpc_row* row, double violation, double tolerance) {
+static int qpc_is_faint(qpc_model t, qpc_solver* s, const qpc_row* row, double violation, double tolerance) {
   const double self = qpc_gram_self(t, row), square = violation * violation;
   if (square <= QPC_ROUNDING * qpc_forces(s) * self) return 1;
   if (violation > tolerance) return 0;
@@ -291,7 +281,7 @@ static int qpc_is_faint(const qpc_tables* t, qpc_solver* s, const qpc_row* row, 
 
 /* The working set holds and no row is violated: a step of refinement. 1: that was exact, or as exact as rounding lets it
    be, since the last one was no larger; 0: look again; -1: it does not converge. `last` is the size of the last step. */
-static int qpc_finish(const qpc_tables* t, qpc_solver* s, double tolerance, double* last) {
+static int qpc_finish(qpc_model t, qpc_solver* s, double tolerance, double* last) {
   double least = QPC_UNBOUNDED, correction[QPC_ACTIVE_PADDED];
   const double residual = qpc_residual(s);
   qpc_multiply_inverse(s, s->column, correction);
@@ -309,24 +299,13 @@ static int qpc_finish(const qpc_tables* t, qpc_solver* s, double tolerance, doub
   return converges || added == 0 || qpc_rebuild(s) ? 0 : -1;
 }
 
-/* The most violated row, or -1 with all outputs up to date. */
-static int qpc_find_violated(const qpc_tables* t, qpc_solver* s, double tolerance, double* violation) {
-  if (s->listed_count > 0 || s->listed_bounds) {
-    qpc_update_outputs(t, s, 0);
-    const int id = qpc_scan_listed(s, tolerance, violation);
-    if (id >= 0) return id;
-  }
-  qpc_update_outputs(t, s, 1);
-  return qpc_scan(s, tolerance, violation);
-}
-
 /* Whether the caller would rather have what there is than more changes. `begun`: those that the guess took, which are no
    more than it has rows. */
 static int qpc_is_spent(const qpc_solver* s, int begun) {
   return s->most_changes > 0 && (s->iterations - begun >= s->most_changes || s->active_count == QPC_MAX_ACTIVE);
 }
 
-static int qpc_active_set(const qpc_tables* t, qpc_solver* s, double tolerance) {
+static int qpc_active_set(qpc_model t, qpc_solver* s, double tolerance) {
   double violation, last = QPC_UNBOUNDED;
   int refinements = 0;
   s->ignored_count = 0;

@@ -3,14 +3,14 @@
 #define QPC_FIRST_BOUND_ID QPC_ROW_SLOTS
 #define QPC_FIRST_QUADRATIC_ID (QPC_ROW_SLOTS + 2 * QPC_BLOCKS * QPC_POINTS_PADDED)
 
-static void qpc_neutralise(qpc_solver* s, int slot) {
+static void qpc_neutralise(qpc_copy* s, int slot) {
   for (int c = 0; c < QPC_COMPONENTS; ++c) s->row_normal[c][slot] = 0.0;
   s->row_offset[slot] = -QPC_UNBOUNDED;
 }
 
 /* Lists the groups of rows that a scan visits, and makes the slots that fill up the last vector of a group harmless.
    0 if a count is out of range. */
-static int qpc_group_rows(qpc_solver* s) {
+static int qpc_group_rows(qpc_copy* s) {
   int groups = 0;
   for (int o = 0; o < QPC_OUTPUTS; ++o) {
     const int across = qpc_row_stride[o] != 1;
@@ -56,7 +56,7 @@ QPC_FUNCTION void qpc_consider(qpc_best* best, qpc_vector violation, int group) 
 }
 
 /* Violations of QPC_WIDTH rows of a group from row i on. */
-QPC_FUNCTION qpc_vector qpc_row_violation(const qpc_solver* s, int group, int i) {
+QPC_FUNCTION qpc_vector qpc_row_violation(const qpc_copy* s, int group, int i) {
   const int output = s->group_output[group], index = s->group_index[group], slot = s->group_slot[group];
   qpc_vector violation = QPC_LOAD(&s->row_offset[slot + i]);
   for (int c = 0; c < QPC_COMPONENTS; ++c) {
@@ -67,7 +67,7 @@ QPC_FUNCTION qpc_vector qpc_row_violation(const qpc_solver* s, int group, int i)
 }
 
 /* Lane by lane the largest violation of a group's rows, or 0. */
-QPC_FUNCTION qpc_vector qpc_group_violation(const qpc_solver* s, int group) {
+QPC_FUNCTION qpc_vector qpc_group_violation(const qpc_copy* s, int group) {
   const int output = s->group_output[group], index = s->group_index[group], slot = s->group_slot[group];
   qpc_vector y[QPC_COMPONENTS];
   qpc_vector largest = {0};
@@ -85,7 +85,7 @@ QPC_FUNCTION qpc_vector qpc_group_violation(const qpc_solver* s, int group) {
   return largest;
 }
 
-QPC_FUNCTION void qpc_scan_bounds(const qpc_solver* s, int first, int count, qpc_best* best) {
+QPC_FUNCTION void qpc_scan_bounds(const qpc_copy* s, int first, int count, qpc_best* best) {
   for (int i = first; i < first + count; i += QPC_WIDTH) {
     const qpc_vector y = QPC_LOAD(&s->output[i]);
     const qpc_vector below = QPC_LOAD(&s->lower[i]) - y, above = y - QPC_LOAD(&s->upper[i]);
@@ -95,7 +95,7 @@ QPC_FUNCTION void qpc_scan_bounds(const qpc_solver* s, int first, int count, qpc
 
 /* The worst row of the lane where the scan found it: `group` counts groups from 0 up, or places of bounds from -1
    down. */
-static int qpc_found(const qpc_solver* s, int group, int lane, double* violation) {
+static int qpc_found(const qpc_copy* s, int group, int lane, double* violation) {
   if (group < 0) {
     const int place = -1 - group + lane;
     const double below = s->lower[place] - s->output[place], above = s->output[place] - s->upper[place];
@@ -113,7 +113,7 @@ static int qpc_found(const qpc_solver* s, int group, int lane, double* violation
   return s->group_slot[group] + at;
 }
 
-QPC_FUNCTION void qpc_scan_all_bounds(const qpc_solver* s, qpc_best* best) {
+QPC_FUNCTION void qpc_scan_all_bounds(const qpc_copy* s, qpc_best* best) {
   for (int b = 0; b < QPC_BLOCKS; ++b) {
     for (int range = 0; range < QPC_BOUND_RANGES; ++range) {
       qpc_scan_bounds(s, b * QPC_POINTS_PADDED + qpc_bound_range[2 * range], qpc_bound_range[2 * range + 1], best);
@@ -122,7 +122,7 @@ QPC_FUNCTION void qpc_scan_all_bounds(const qpc_solver* s, qpc_best* best) {
 }
 
 /* The identity of the row that the scan found, or -1. */
-QPC_FUNCTION int qpc_most_violated(const qpc_solver* s, const qpc_best* best, double tolerance, double* violation) {
+QPC_FUNCTION int qpc_most_violated(const qpc_copy* s, const qpc_best* best, double tolerance, double* violation) {
   int lane = -1;
   *violation = tolerance;
   for (int i = 0; i < QPC_WIDTH; ++i) {
@@ -135,14 +135,14 @@ QPC_FUNCTION int qpc_most_violated(const qpc_solver* s, const qpc_best* best, do
 }
 
 /* Notes which tiles of the outputs belong to points `first` to `last` of a block. */
-QPC_FUNCTION void qpc_list_tiles(qpc_solver* s, int first, int last) {
+QPC_FUNCTION void qpc_list_tiles(qpc_copy* s, int first, int last) {
   for (int tile = first / QPC_TILE_POINTS; tile <= last / QPC_TILE_POINTS; ++tile) s->listed_tile[tile] = 1;
 }
 
 /* Lists what the scan has found violated: most iterations change the same few rows, and need to look at no others until
    these hold. Pays where there are many. */
 #define QPC_CHANGES_BEFORE_LIST 4
-static void qpc_list(qpc_solver* s, double tolerance, int bounds) {
+static void qpc_list(qpc_copy* s, double tolerance, int bounds) {
   s->listed_count = 0;
   s->listed_bounds = bounds;
   for (int tile = 0; tile < QPC_TILES; ++tile) s->listed_tile[tile] = 0;
@@ -164,7 +164,7 @@ static void qpc_list(qpc_solver* s, double tolerance, int bounds) {
 
 /* The most violated row or bound: its identity, or -1 if none is violated by more than the tolerance. Active rows are
    masked: see qpc_mask_row. */
-static int qpc_scan(qpc_solver* s, double tolerance, double* violation) {
+static int qpc_scan(qpc_copy* s, double tolerance, double* violation) {
   qpc_best best;
   best.violation = QPC_BROADCAST(tolerance);
   best.group = (qpc_mask){0};
@@ -183,7 +183,7 @@ static int qpc_scan(qpc_solver* s, double tolerance, double* violation) {
 }
 
 /* The same among what is listed. */
-static int qpc_scan_listed(const qpc_solver* s, double tolerance, double* violation) {
+static int qpc_scan_listed(const qpc_copy* s, double tolerance, double* violation) {
   qpc_best best;
   best.violation = QPC_BROADCAST(tolerance);
   best.group = (qpc_mask){0};

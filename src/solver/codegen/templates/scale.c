@@ -6,7 +6,7 @@
 enum { QPC_ROWS_USUAL, QPC_ROWS_UNUSUAL, QPC_ROWS_BAD };
 
 /* Looks at every row in use: not finite? a squared length outside of 1/16 to 16, and not 0? */
-static int qpc_look_at_rows(const qpc_solver* s) {
+static int qpc_look_at_rows(const qpc_copy* s) {
   qpc_vector finite = {0};
   qpc_mask unusual = {0};
   for (int group = 0; group < s->group_count; ++group) {
@@ -29,7 +29,7 @@ static int qpc_look_at_rows(const qpc_solver* s) {
 }
 
 /* The power of two that brings the row's largest component to between 1/2 and 1. */
-static double qpc_row_scale(const qpc_solver* s, int slot) {
+static double qpc_row_scale(const qpc_copy* s, int slot) {
   double largest = 0.0, scale = 1.0;
   for (int c = 0; c < QPC_COMPONENTS; ++c) {
     const double size = s->row_normal[c][slot] < 0.0 ? -s->row_normal[c][slot] : s->row_normal[c][slot];
@@ -42,7 +42,7 @@ static double qpc_row_scale(const qpc_solver* s, int slot) {
 }
 
 /* Scales all rows (back, if `undo`). */
-static void qpc_scale_rows(qpc_solver* s, int undo) {
+static void qpc_scale_rows(qpc_copy* s, int undo) {
   for (int group = 0; group < s->group_count; ++group) {
     for (int i = 0; i < QPC_ROUND_UP(s->group_rows[group], QPC_WIDTH); ++i) {
       const int slot = s->group_slot[group] + i;
@@ -57,6 +57,6 @@ static void qpc_scale_rows(qpc_solver* s, int undo) {
 
 /* Factor between the scaled and the caller's row: normal, offset and slack are that much larger, the multiplier
    smaller. */
-static double qpc_scale_of(const qpc_solver* s, int id) {
+static double qpc_copy_scale_of(const qpc_copy* s, int id) {
   return s->scaled && id < QPC_ROW_SLOTS ? s->row_scale[id] : 1.0;
 }

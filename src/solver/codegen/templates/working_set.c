@@ -3,140 +3,9 @@
    inverse of its Gram matrix, kept up to date by rank-one changes. A soft row is rigid up to the multiplier
    `row_linear` and has flexibility 1 / quadratic above: a change of part is a rank-one change as well. */
 
-typedef struct {
-  int id;
-  int output, index;         /* of the stage */
-  int place[QPC_COMPONENTS]; /* flat, in qpc_solver.output */
-  double normal[QPC_COMPONENTS];
-  double offset;
-  double linear, compliance; /* hard: QPC_UNBOUNDED, 0 */
-} qpc_row;
-
 /* A rank-one change that takes back entries of this size, relative to what they become, loses as many digits: then
    inverse_gram is made anew. */
 #define QPC_LOST_DIGITS 1e5
-
-#define QPC_IS_QUADRATIC(id) ((id) >= QPC_FIRST_QUADRATIC_ID)
-
-/* Takes a row or bound out of the scan while it is in the working set, or puts it back. */
-static void qpc_mask_row(qpc_solver* s, int id, int masked, double offset) {
-  if (id < QPC_FIRST_BOUND_ID) {
-    s->row_offset[id] = masked ? -QPC_UNBOUNDED : offset;
-  } else if (!QPC_IS_QUADRATIC(id)) {
-    const int place = (id - QPC_FIRST_BOUND_ID) / 2;
-    if ((id - QPC_FIRST_BOUND_ID) % 2 != 0) {
-      s->upper[place] = masked ? QPC_UNBOUNDED : -offset;
-    } else {
-      s->lower[place] = masked ? -QPC_UNBOUNDED : offset;
-    }
-  }
-}
-
-/* The three below return 0 if the row's penalty does not exist. */
-static int qpc_load_slot(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
-  int o = 0;
-  while (o + 1 < QPC_OUTPUTS && id >= qpc_first_slot[o + 1]) ++o;
-  const int within = id - qpc_first_slot[o];
-  const int index = qpc_row_stride[o] == 1 ? within / qpc_stage_stride[o] : within % qpc_row_stride[o];
-  const int penalty = s->row_penalty[id];
-  row->output = o;
-  row->index = index;
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    row->place[c] = qpc_output_place[o][c] + index;
-    row->normal[c] = s->row_normal[c][id];
-  }
-  row->offset = s->row_offset[id];
-  if (penalty > QPC_PENALTIES) return 0;
-  row->linear = t->penalty_linear[penalty];
-  row->compliance = t->compliance[penalty];
-  if (s->scaled && penalty > 0) {
-    row->linear /= s->row_scale[id];
-    row->compliance *= s->row_scale[id] * s->row_scale[id];
-  }
-  return 1;
-}
-
-static int qpc_load_bound(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
-  const int is_upper = (id - QPC_FIRST_BOUND_ID) % 2;
-  const int place = (id - QPC_FIRST_BOUND_ID) / 2;
-  const int block = place / QPC_POINTS_PADDED, channel = place % QPC_POINTS_PADDED / QPC_HORIZON;
-  const int penalty = qpc_bound_penalty[block][channel];
-  row->output = qpc_channel_output[block][channel];
-  row->index = place % QPC_POINTS_PADDED % QPC_HORIZON;
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    row->place[c] = qpc_output_place[row->output][c] + row->index;
-    row->normal[c] = 0.0;
-  }
-  row->normal[qpc_channel_component[block][channel]] = is_upper ? -1.0 : 1.0;
-  row->offset = is_upper ? -s->upper[place] : s->lower[place];
-  row->linear = t->penalty_linear[penalty];
-  row->compliance = t->compliance[penalty];
-  return 1;
-}
-
-static int qpc_load_row(const qpc_tables* t, const qpc_solver* s, int id, qpc_row* row) {
-  row->id = id;
-  if (id < QPC_FIRST_BOUND_ID) return qpc_load_slot(t, s, id, row);
-  if (!QPC_IS_QUADRATIC(id)) return qpc_load_bound(t, s, id, row);
-  const int i = id - QPC_FIRST_QUADRATIC_ID;
-  row->output = s->quadratic_output[i];
-  row->index = s->quadratic_index[i];
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    row->place[c] = qpc_output_place[row->output][c] + row->index;
-    row->normal[c] = s->quadratic_normal[i][c];
-  }
-  row->offset = s->quadratic_offset[i];
-  row->linear = 0.0;
-  row->compliance = 1.0 / s->quadratic_weight[i];
-  return 1;
-}
-
-/* G H^-1 G' between the row and itself. */
-static double qpc_gram_self(const qpc_tables* t, const qpc_row* row) {
-  double sum = 0.0;
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
-    const int block = row->place[c] / QPC_POINTS_PADDED, point = row->place[c] % QPC_POINTS_PADDED;
-    const double(*gram)[QPC_POINTS_PADDED] = t->gram[qpc_class_of_block[block]];
-    if (QPC_ALIGNED) {
-      sum += row->normal[c] * row->normal[c] * gram[point][point];
-      continue;
-    }
-    for (int e = 0; e < QPC_COMPONENTS; ++e) {
-      if (row->place[e] / QPC_POINTS_PADDED != block) continue;
-      sum += row->normal[c] * row->normal[e] * gram[point][row->place[e] % QPC_POINTS_PADDED];
-    }
-  }
-  return sum;
-}
-
-/* column_i = G H^-1 G' between the row and each of the working set's. */
-static void qpc_gram_column(const qpc_tables* t, qpc_solver* s, const qpc_row* row) {
-  const int n = s->active_count;
-#if QPC_ALIGNED
-  const int point = row->place[0];
-  for (int i = 0; i < n; ++i) {
-    double sum = 0.0;
-    for (int c = 0; c < QPC_COMPONENTS; ++c) {
-      sum += row->normal[c] * s->normal[c][i] * t->gram[qpc_class_of_block[c]][point][s->point[0][i]];
-    }
-    s->column[i] = sum;
-  }
-#else
-  for (int i = 0; i < n; ++i) {
-    double sum = 0.0;
-    for (int c = 0; c < QPC_COMPONENTS; ++c) {
-      const int block = row->place[c] / QPC_POINTS_PADDED, point = row->place[c] % QPC_POINTS_PADDED;
-      for (int e = 0; e < QPC_COMPONENTS; ++e) {
-        if (s->point[e][i] / QPC_POINTS_PADDED != block) continue;
-        sum += row->normal[c] * s->normal[e][i] *
-               t->gram[qpc_class_of_block[block]][point][s->point[e][i] % QPC_POINTS_PADDED];
-      }
-    }
-    s->column[i] = sum;
-  }
-#endif
-  for (int i = n; i < QPC_ROUND_UP(n, QPC_WIDTH); ++i) s->column[i] = 0.0;
-}
 
 /* result = m v, m symmetric and of the working set's size. */
 QPC_FUNCTION void qpc_multiply(const double (*m)[QPC_ACTIVE_PADDED], int n, const double* v, double* result) {
@@ -188,7 +57,7 @@ static void qpc_set_part(qpc_solver* s, int i, int soft) {
   s->least[i] = soft ? s->row_linear[i] : 0.0;
   s->most[i] = soft ? QPC_UNBOUNDED : s->row_linear[i];
   s->target[i] = s->offset[i] + (soft ? s->row_linear[i] * s->row_compliance[i] : 0.0);
-  if (QPC_IS_QUADRATIC(s->active_id[i])) s->least[i] = -QPC_UNBOUNDED;
+  if (QPC_IS_TERM(s->active_id[i])) s->least[i] = -QPC_UNBOUNDED;
 }
 
 /* Borders inverse_gram by one more entry: `direction` = inverse_gram * its column, `curvature` its Schur complement. */
@@ -230,7 +99,7 @@ static void qpc_append(qpc_solver* s, const qpc_row* row, double lambda, int sof
   for (int j = 0; j < n; ++j) s->gram[n][j] = s->gram[j][n] = s->column[j];
   s->gram[n][n] = self;
   qpc_border(s, curvature);
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+  for (int c = 0; c < QPC_ROW_COMPONENTS; ++c) {
     s->point[c][n] = row->place[c];
     s->normal[c][n] = row->normal[c];
   }
@@ -244,7 +113,7 @@ static void qpc_append(qpc_solver* s, const qpc_row* row, double lambda, int sof
 }
 
 static void qpc_copy_entry(qpc_solver* s, int to, int from) {
-  for (int c = 0; c < QPC_COMPONENTS; ++c) {
+  for (int c = 0; c < QPC_ROW_COMPONENTS; ++c) {
     s->point[c][to] = s->point[c][from];
     s->normal[c][to] = s->normal[c][from];
   }
@@ -284,48 +153,6 @@ static void qpc_remove(qpc_solver* s, int i) {
   s->column[last] = 0.0;
   s->active_count = last;
   if (!(lost > 0.0 && lost < QPC_LOST_DIGITS)) qpc_rebuild(s);
-}
-
-/* output = free_output + sum over the working set of multiplier times the tables' columns; all of it, or the listed
-   tiles. */
-static void qpc_update_outputs(const qpc_tables* t, qpc_solver* s, int all) {
-  const int n = s->active_count;
-#if QPC_ALIGNED
-  for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_TILE_POINTS) {
-    if (!all && !s->listed_tile[j / QPC_TILE_POINTS]) continue;
-    qpc_vector sum[QPC_BLOCKS][QPC_TILE];
-    for (int b = 0; b < QPC_BLOCKS; ++b) {
-      for (int l = 0; l < QPC_TILE; ++l) {
-        sum[b][l] = QPC_LOAD(&s->free_output[b * QPC_POINTS_PADDED + j + l * QPC_WIDTH]);
-      }
-    }
-    for (int i = 0; i < n; ++i) {
-      const double lambda = s->lambda[i];
-      for (int b = 0; b < QPC_BLOCKS; ++b) {
-        const double* column = &t->gram[qpc_class_of_block[b]][s->point[0][i]][j];
-        const double force = lambda * s->normal[b][i];
-        for (int l = 0; l < QPC_TILE; ++l) sum[b][l] += QPC_LOAD(column + l * QPC_WIDTH) * force;
-      }
-    }
-    for (int b = 0; b < QPC_BLOCKS; ++b) {
-      for (int l = 0; l < QPC_TILE; ++l) QPC_STORE(&s->output[b * QPC_POINTS_PADDED + j + l * QPC_WIDTH], sum[b][l]);
-    }
-  }
-#else
-  (void)all;
-  for (int j = 0; j < QPC_BLOCKS * QPC_POINTS_PADDED; ++j) s->output[j] = s->free_output[j];
-  for (int i = 0; i < n; ++i) {
-    for (int c = 0; c < QPC_COMPONENTS; ++c) {
-      const int block = s->point[c][i] / QPC_POINTS_PADDED, point = s->point[c][i] % QPC_POINTS_PADDED;
-      const double* column = t->gram[qpc_class_of_block[block]][point];
-      const double force = s->lambda[i] * s->normal[c][i];
-      for (int j = 0; j < QPC_POINTS_PADDED; j += QPC_WIDTH) {
-        double* y = &s->output[block * QPC_POINTS_PADDED + j];
-        QPC_STORE(y, QPC_LOAD(y) + QPC_LOAD(column + j) * force);
-      }
-    }
-  }
-#endif
 }
 
 /* Moves entry i to the other part of its penalty. 0 if the rigid part would make the working set dependent, or nearly:

@@ -1,0 +1,31 @@
+// Copyright (c) 2026, the swarm_planner authors. BSD-3-Clause, see LICENSE.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "swarm_planner/model/trajectory.hpp"
+
+namespace swarm_planner {
+
+// What the SQP runs of one UAV and of several have in common.
+
+constexpr std::array<double, 4> kStepLengths{1.0, 0.5, 0.25, 0.125};
+constexpr double kForetold = 1e-3;   // of the gain
+constexpr double kSampleBand = 2.0;  // width of the band that gets rows, in the way flown per stage at full speed
+
+/// Largest distance between the knots of two plans [m].
+inline double largestMove(const Trajectory& from, const Trajectory& to) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k <= kHorizon; ++k) largest = std::max(largest, (to.knots[k].p - from.knots[k].p).norm());
+  return largest;
+}
+
+/// The plan a step of `length` from `plan` towards the jerks of a QP's answer.
+inline void stepTowards(const std::array<Vector3, kHorizon>& answer, double length, const KinematicState& start,
+                        const Trajectory& plan, Trajectory& step) {
+  for (std::size_t k = 0; k < kHorizon; ++k) step.jerks[k] = plan.jerks[k] + length * (answer[k] - plan.jerks[k]);
+  rollOut(start, step);
+}
+
+}  // namespace swarm_planner
