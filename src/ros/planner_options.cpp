@@ -39,8 +39,9 @@ const std::vector<NodeParameter>& plannerNodeTable() {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static const std::vector<NodeParameter> table = {
       {"scenario", "path of the scenario file", std::string(), true},
-      {"mode", "how plans are made: iterative, UAV by UAV, joint, at once for a small swarm, or groups, at once for "
-               "those that interact strongly",
+      {"mode",
+       "how plans are made: iterative, UAV by UAV, joint, at once for a small swarm, or groups, at once for "
+       "those that interact strongly",
        std::string("iterative")},
       {"odometry_topic", "odometry of a UAV, {uav} stands for its name", std::string(kDefaultOdometryTopic)},
       {"trajectory_topic", "setpoints of a UAV, {uav} stands for its name", std::string(kDefaultTrajectoryTopic)},

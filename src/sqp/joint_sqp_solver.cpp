@@ -237,8 +237,8 @@ void JointSqpSolver::takeStep(const JointProblem& problem, const JointComponents
       moved = std::max(moved, largestMove(plans[i], candidate_[i]));
       iterations = std::max(iterations, results_[i].iterations);
     }
-    const double gain = meritOf(merit_, problem, components, component) -
-                        meritOf(candidate_merit_, problem, components, component);
+    const double gain =
+        meritOf(merit_, problem, components, component) - meritOf(candidate_merit_, problem, components, component);
     const double promised =
         objective(qp_, plans, components, component) - objective(qp_, answer, components, component);
     const bool is_foretold = std::abs(gain - promised) < kForetold * promised;

@@ -26,8 +26,7 @@ void JointGroups::buildOne(const std::vector<Candidate>& candidates, const Surro
 }
 
 void JointGroups::build(const std::vector<Candidate>& candidates, const Surroundings& surroundings, ThreadTeam& team) {
-  team.forEach(0, partners_.size(),
-               [&](std::size_t i, std::size_t) { findPartners(i, candidates, surroundings); });
+  team.forEach(0, partners_.size(), [&](std::size_t i, std::size_t) { findPartners(i, candidates, surroundings); });
   joinPairs();
   list(surroundings);
 }

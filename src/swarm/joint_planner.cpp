@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kGuessRoom = 256;
 /// Changes of the active set per UAV and QP of those that rows connect. Fewer than of a UAV alone, since a change takes
-/// the more time the more rows of all are active: where eight meet at one point, four times as many took 130 ms, and the
-/// flight was no better.
+/// the more time the more rows of all are active: where eight meet at one point, four times as many took 130 ms, and
+/// the flight was no better.
 constexpr int kMostJointChanges = 25;
 
 std::unique_ptr<JointQpSolver> makeSolver(const Parameters& parameters,

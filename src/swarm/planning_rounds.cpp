@@ -74,19 +74,21 @@ void PlanningRounds::planByGroups(const Cycle& cycle) {
   order_.build(groups_->neighbours(), groups_->groupOf(first_));
   std::atomic<bool> planned{false};
   for (std::size_t round = 0; round < order_.rounds(); ++round) {
-    team_.forEach(order_.roundBegin(round), order_.roundBegin(round + 1), [&](std::size_t position, std::size_t member) {
-      const std::size_t group = order_.uav(position);
-      const std::size_t* uavs = groups_->begin(group);
-      const bool may_skip = cycle.turns[uavs[0]] == Turn::kPlan && planned.exchange(true);
-      if (groups_->size(group) > 1 && !(may_skip && cycle.time.isSpent())) {
-        // Of one group it does not matter which member has the planner.
-        JointPlanner& planner = joint_planners_[std::min(member, joint_planners_.size() - 1)];
-        planner.plan(uavs, groups_->size(group), cycle.epoch, cycle.time, guesses_[uavs[0]], cycle.records,
-                     cycle.surroundings, cycle.reports);
-        return;
-      }
-      for (std::size_t i = 0; i < groups_->size(group); ++i) takeTurn(uavs[i], may_skip, planners_[member], cycle);
-    });
+    team_.forEach(order_.roundBegin(round), order_.roundBegin(round + 1),
+                  [&](std::size_t position, std::size_t member) {
+                    const std::size_t group = order_.uav(position);
+                    const std::size_t* uavs = groups_->begin(group);
+                    const bool may_skip = cycle.turns[uavs[0]] == Turn::kPlan && planned.exchange(true);
+                    if (groups_->size(group) > 1 && !(may_skip && cycle.time.isSpent())) {
+                      // Of one group it does not matter which member has the planner.
+                      JointPlanner& planner = joint_planners_[std::min(member, joint_planners_.size() - 1)];
+                      planner.plan(uavs, groups_->size(group), cycle.epoch, cycle.time, guesses_[uavs[0]],
+                                   cycle.records, cycle.surroundings, cycle.reports);
+                      return;
+                    }
+                    for (std::size_t i = 0; i < groups_->size(group); ++i)
+                      takeTurn(uavs[i], may_skip, planners_[member], cycle);
+                  });
   }
 }
 

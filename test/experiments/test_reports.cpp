@@ -60,6 +60,7 @@ TEST(JsonReport, HasEveryKeyOfTheContractAndTheDisturbances) {
                                       "seed",
                                       "uavs",
                                       "problem",
+                                      "mode",
                                       "cycles",
                                       "cycle_ms",
                                       "cycle_cpu_ms",

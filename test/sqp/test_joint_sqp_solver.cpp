@@ -88,6 +88,32 @@ TEST_F(JointSqp, UavsThatDoNotMeetGetThePlansThatEachFindsAlone) {
   }
 }
 
+// Also where a step is refused: a plan that stays is worth what it was.
+TEST_F(JointSqp, AUavOfItsOwnGetsThePlanThatItFindsAloneToTheBit) {
+  SqpSolver alone(std::make_unique<GeneratedSolver>(std::make_shared<GeneratedTables>(models())));
+  Random random(5);
+  int refused = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    Flight flight;
+    flight.add(Vector3(0, 0, 10), Vector3(60, 0, 10), 4.0);
+    for (int i = 0; i < 6; ++i) {
+      flight.uav(0).addObstacle(Superellipsoid(i, random.vector(-5.0, 5.0) + Vector3(9, 0, 10), random.vector(0.5, 2.5),
+                                               Vector3(8, 8, 8), 0.0, Vector3::Zero()));
+    }
+    const UavProblem& problem = *flight.problem.uavs[0];
+    flight.plans.plans[0] = wanderingPlan(random, problem.start, 4.0, problem.epoch, problem.dt);
+    Trajectory expected = flight.plans.plans[0];
+    ActiveRows none;
+    const SqpResult lonely = alone.solve(problem, expected, none);
+    const SqpResult joint = solver_.solve(flight.problem, flight.plans)[0];
+    EXPECT_TRUE(identical(flight.plans.plans[0], expected)) << "trial " << trial;
+    EXPECT_EQ(joint.merit, lonely.merit) << "trial " << trial;
+    EXPECT_EQ(joint.iterations, lonely.iterations) << "trial " << trial;
+    refused += lonely.iterations > 1 ? 1 : 0;
+  }
+  EXPECT_GT(refused, 20);
+}
+
 TEST_F(JointSqp, BothOfACrossingPairGiveWay) {
   Flight flight;
   flight.add(Vector3(-8, 0, 10), Vector3(60, 0, 10), 3.0);

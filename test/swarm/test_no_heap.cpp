@@ -304,6 +304,9 @@ TEST_F(NoHeap, CheckingPlansAllocatesNothing) {
 TEST_F(NoHeap, PlanningTheSwarmAtOnceAllocatesNothing) {
   EXPECT_EQ(heapCallsOfFlight(makeMission(crossing(), {}, "crossing"), 60, nullptr, nullptr, PlanningMode::kJoint), 0);
   EXPECT_EQ(heapCallsOfFlight(makeMission(paperSix(), {}, "paper_six"), 60, nullptr, nullptr, PlanningMode::kJoint), 0);
+  EXPECT_EQ(heapCallsOfFlight(makeMission(circleSwap(16, 10.0, 1), {{"threads", 2}}, "circle_swap"), 30, nullptr,
+                              nullptr, PlanningMode::kGroups),
+            0);
 }
 
 }  // namespace

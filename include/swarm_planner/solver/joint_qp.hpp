@@ -35,7 +35,7 @@ struct ActivePairRows {
 
 /// The QPs of several UAVs as one, with rows for pairs of them. Always feasible since every row is soft.
 struct JointQp {
-  std::size_t count = 0;                  ///< of UAVs in use
+  std::size_t count = 0;  ///< of UAVs in use
   /// UAVs that are left as they are: the rest is the problem, and no pair row touches them.
   std::array<bool, kMostJointUavs> is_left{};
   std::vector<std::unique_ptr<Qp>> uavs;  ///< kMostJointUavs; every model has the same penalty

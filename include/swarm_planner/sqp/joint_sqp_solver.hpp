@@ -19,8 +19,8 @@ struct JointPlans {
 };
 
 /// Sequential quadratic programming on JointProblem, as SqpSolver on UavProblem: one QP for all UAVs and one merit, in
-/// which a pair's violation counts once. UAVs that cannot meet on the way do not shorten each other's steps, nor wait for
-/// each other: each such component is done when it has no more to gain.
+/// which a pair's violation counts once. UAVs that cannot meet on the way do not shorten each other's steps, nor wait
+/// for each other: each such component is done when it has no more to gain.
 class JointSqpSolver {
  public:
   /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
@@ -65,7 +65,7 @@ class JointSqpSolver {
   JointMerit merit_, candidate_merit_;
   std::array<bool, kMostJointUavs> is_done_{};
   std::array<bool, kMostJointUavs> moves_{};  ///< whether candidate_ is not the plan that it comes from
-  std::vector<ActiveRow> kept_rows_;  ///< of pairs that are left
+  std::vector<ActiveRow> kept_rows_;          ///< of pairs that are left
   std::vector<SqpResult> results_;
 };
 

@@ -13,8 +13,8 @@
 
 namespace swarm_planner {
 
-/// Divides a swarm into groups of at most kMostJointUavs UAVs that are planned for at once; a UAV that is in no group is
-/// one of its own. The same for any number of threads.
+/// Divides a swarm into groups of at most kMostJointUavs UAVs that are planned for at once; a UAV that is in no group
+/// is one of its own. The same for any number of threads.
 class JointGroups {
  public:
   /// Memory for `uavs` UAVs.
