@@ -284,6 +284,8 @@ void Parser::check() {
   const auto given = [this](const char* option) {
     return std::find(seen_.begin(), seen_.end(), option) != seen_.end();
   };
+  const bool iterative = options_.mode == PlanningMode::kIterative && options_.command != ExperimentCommand::kCompare;
+  if (options_.as_paper && !iterative) throw OptionError("--as-paper: does not go with Problem 1");
   if (given("--seed") && given("--seeds")) throw OptionError("--seed and --seeds: give one of them");
   if (given("--joint") && given("--groups")) throw OptionError("--joint and --groups: give one of them");
   if (given("--scenarios") && given("--seeds")) throw OptionError("--scenarios and --seeds: give one of them");
@@ -348,10 +350,10 @@ options:
                          guide      no ways round what blocks references are searched
                          avoidance  plans ignore obstacles and other UAVs
                          right_of_way  no UAV gives way where several block each other
-  --joint              plan by Problem 1, all UAVs at once, at most 8
-  --groups             plan at once for groups of up to 8 UAVs that interact strongly
   --as-paper           the paper's method alone: the acceleration is held between the samples, constraints hold at the
                        samples, and there is neither check nor guide nor right of way; planning takes no time
+  --joint              plan by Problem 1, all UAVs at once, at most 8
+  --groups             plan at once for groups of up to 8 UAVs that interact strongly
   --params FILE        parameters, as in config/planner.yaml; those that a scenario sets come first
   --threads T          threads of the planner; the flight does not depend on it
   --help               this text

@@ -25,7 +25,8 @@ ParameterMap givenParameters(const ExperimentOptions& options) {
 }
 
 void requireMode(PlanningMode mode, const std::string& source, const Mission& mission) {
-  const std::optional<std::string> fault = planningModeFault(mode, mission.scenario.uavs.size());
+  const std::optional<std::string> fault =
+      planningModeFault(mode, mission.scenario.uavs.size(), mission.parameters.limits.as_paper);
   if (fault) throw ConfigError(source + ": " + *fault);
 }
 

@@ -24,7 +24,10 @@ std::optional<PlanningMode> planningModeFrom(const std::string& text) {
   return {};
 }
 
-std::optional<std::string> planningModeFault(PlanningMode mode, std::size_t uavs) {
+std::optional<std::string> planningModeFault(PlanningMode mode, std::size_t uavs, bool as_paper) {
+  if (mode != PlanningMode::kIterative && as_paper) {
+    return std::string("as_paper goes with mode iterative alone, not with ") + planningModeText(mode);
+  }
   if (mode != PlanningMode::kJoint || uavs <= kMostJointUavs) return {};
   return "the joint problem is solved for at most " + std::to_string(kMostJointUavs) + " UAVs, the scenario has " +
          std::to_string(uavs);

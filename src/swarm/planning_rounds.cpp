@@ -21,7 +21,7 @@ struct PlanningRounds::Cycle {
 PlanningRounds::PlanningRounds(const Parameters& parameters, const std::optional<Workspace>& workspace,
                                PlanningMode mode, std::size_t uavs, std::size_t max_obstacles, ThreadTeam& team)
     : team_(team), mode_(mode) {
-  if (const auto fault = planningModeFault(mode, uavs)) throw std::invalid_argument(*fault);
+  if (const auto fault = planningModeFault(mode, uavs, parameters.limits.as_paper)) throw std::invalid_argument(*fault);
   order_.reserve(uavs);
   const QpModels models = makeQpModels(parameters);
   const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});

@@ -90,13 +90,18 @@ TEST(JointPlanner, LandsAndHoldsWithTheOthersFlying) {
 }
 
 TEST(JointPlanner, RefusesMoreUavsThanItsSolverIsMadeFor) {
-  EXPECT_FALSE(planningModeFault(PlanningMode::kIterative, 1000));
-  EXPECT_FALSE(planningModeFault(PlanningMode::kJoint, kMostJointUavs));
-  const auto fault = planningModeFault(PlanningMode::kJoint, kMostJointUavs + 1);
+  EXPECT_FALSE(planningModeFault(PlanningMode::kIterative, 1000, true));
+  EXPECT_FALSE(planningModeFault(PlanningMode::kJoint, kMostJointUavs, false));
+  const auto fault = planningModeFault(PlanningMode::kJoint, kMostJointUavs + 1, false);
   ASSERT_TRUE(fault);
   EXPECT_NE(fault->find("at most 8"), std::string::npos) << *fault;
   EXPECT_NE(fault->find("has 9"), std::string::npos) << *fault;
   EXPECT_THROW(SwarmPlanner(swap(9, 20.0), PlanningMode::kJoint), std::invalid_argument);
+}
+
+TEST(JointPlanner, RefusesThePapersMethodAlone) {
+  EXPECT_TRUE(planningModeFault(PlanningMode::kJoint, 2, true));
+  EXPECT_TRUE(planningModeFault(PlanningMode::kGroups, 2, true));
 }
 
 }  // namespace

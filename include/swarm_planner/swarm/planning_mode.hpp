@@ -15,7 +15,7 @@ enum class PlanningMode { kIterative, kJoint, kGroups };
 const char* planningModeText(PlanningMode mode);
 std::optional<PlanningMode> planningModeFrom(const std::string& text);
 
-/// Why a swarm of so many UAVs cannot be planned in a mode, in words; empty if it can.
-std::optional<std::string> planningModeFault(PlanningMode mode, std::size_t uavs);
+/// Why a swarm of so many UAVs cannot be planned in a mode, `as_paper` or not, in words; empty if it can.
+std::optional<std::string> planningModeFault(PlanningMode mode, std::size_t uavs, bool as_paper);
 
 }  // namespace swarm_planner

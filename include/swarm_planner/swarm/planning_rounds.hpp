@@ -30,7 +30,7 @@ enum class Turn : std::uint8_t {
 /// the same time, with the same result for any number of threads.
 class PlanningRounds {
  public:
-  /// As UavPlanner's. Throws std::invalid_argument with planningModeFault() for too many UAVs. `team` must outlive
+  /// As UavPlanner's. Throws std::invalid_argument with planningModeFault() if there is one. `team` must outlive
   /// this.
   PlanningRounds(const Parameters& parameters, const std::optional<Workspace>& workspace, PlanningMode mode,
                  std::size_t uavs, std::size_t max_obstacles, ThreadTeam& team);

@@ -22,7 +22,7 @@ namespace swarm_planner {
 /// once. Nothing in plan() throws, or allocates on the heap unless a snapshot has more obstacles than max_tracks.
 class SwarmPlanner {
  public:
-  /// Throws std::invalid_argument with planningModeFault() for more UAVs than the mode can plan for.
+  /// Throws std::invalid_argument with planningModeFault() for what the mode cannot plan for.
   explicit SwarmPlanner(const Mission& mission, PlanningMode mode = PlanningMode::kIterative);
   ~SwarmPlanner();
   SwarmPlanner(SwarmPlanner&&) noexcept;
