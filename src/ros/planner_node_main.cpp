@@ -19,7 +19,8 @@ int main(int argc, char** argv) {
     const Mission mission = loadNodeMission(options.scenario, parameters, faults);
     const std::optional<std::string> mode_fault =
         planningModeFault(options.mode, mission.scenario.uavs.size(), mission.parameters.limits.as_paper);
-    if (mode_fault) throw ConfigError(std::string("parameters: mode: is ") + planningModeText(options.mode) + "; " + *mode_fault);
+    if (mode_fault)
+      throw ConfigError(std::string("parameters: mode: is ") + planningModeText(options.mode) + "; " + *mode_fault);
     PlannerNode node(SwarmPlanner(mission, options.mode), mission, options);
     const MasterWatch master_watch;
     ros::spin();
