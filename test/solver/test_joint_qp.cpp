@@ -49,8 +49,8 @@ std::vector<Functions> functions() {
 }
 
 joint_qp_parameters sameParameters(const planner_qp_parameters& p) {
-  return {p.dt,   p.along, p.across,       p.velocity,       p.final_velocity, p.final_acceleration,
-          p.jerk, p.drag,  p.slack_linear, p.slack_quadratic};
+  return {p.dt,   p.along,        p.across,          p.velocity, p.final_velocity, p.final_acceleration, p.jerk,
+          p.drag, p.slack_linear, p.slack_quadratic, p.held};
 }
 
 struct Coupling {
