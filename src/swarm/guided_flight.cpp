@@ -13,9 +13,11 @@ constexpr std::size_t kMostPoints = GuidePath::kMostPoints + FollowedPath::kMost
 constexpr double kFootWindow = 5.0;     // about the last foot [m]
 constexpr double kBrakingStages = 5.0;  // from max_speed to rest
 constexpr double kSharpest = 1e-4;
-constexpr double kHeldUp = 0.5;  // of the way asked for, that a plan lacks at its end if it does not get on
-constexpr double kAtEnd = 0.5;   // of a guide that ends beside its reference's end [m]
-constexpr int kRetries = 4;      // cycles between two fresh starts of a UAV that does not get on
+constexpr double kHeldUp = 0.5;     // of the way asked for, that a plan lacks at its end if it does not get on
+constexpr double kStanding = 0.25;  // of the pair distance, within which a plan leads nowhere
+constexpr double kAtEnd = 0.5;      // of a guide that ends beside its reference's end [m]
+constexpr int kRetries = 4;         // cycles between two fresh starts of a UAV that does not get on
+constexpr double kRegain = 1.5;     // by which the lead of its targets grows in a cycle in which it does
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -83,6 +85,7 @@ void GuidedFlight::take(const GuideAnswer& answer, const MovingTarget& target) {
   if (!is_other_way) return;
   needs_fresh_start_ = true;
   held_up_ = 0;
+  lead_ = kInfinity;
 }
 
 double GuidedFlight::wayOf(double arc_length) const {
@@ -138,7 +141,7 @@ void GuidedFlight::pose(const MovingTarget& target, double& progress, UavProblem
     const double before = way;
     if (k > 0) {
       speed = std::min(speed + braking_ * problem.dt, speedAt(way, max_speed));
-      way = std::max(std::min(wanted, way + speed * problem.dt), way);
+      way = std::max(std::min({wanted, way + speed * problem.dt, progress_ + lead_}), way);
     }
     const PathPoint point = path_.at(way);
     TargetState& state = problem.targets[k];
@@ -155,9 +158,17 @@ void GuidedFlight::notePlan(const Vector3& end, const UavProblem& problem) {
   const double asked = problem.targets[kHorizon].arc_length - problem.progress;
   const double lacking = (problem.targets[kHorizon].p - end).norm();
   const LimitParameters& limits = problem.parameters->limits;
-  const bool gets_on = lacking < std::max(kHeldUp * asked, kHeldUp * limits.pair_distance);
+  // A target behind a wall may be near: as long as much is asked for, the plan has to lead somewhere, too.
+  const bool stands =
+      asked >= limits.pair_distance && (end - problem.start.p).norm() < kStanding * limits.pair_distance;
+  const bool gets_on = !stands && lacking < std::max(kHeldUp * asked, kHeldUp * limits.pair_distance);
   held_up_ = gets_on ? 0 : held_up_ + 1;
   needs_fresh_start_ = held_up_ % kRetries == 1;
+  if (gets_on) {
+    lead_ *= kRegain;
+  } else if (held_up_ % kRetries == 0) {
+    lead_ = std::max(0.5 * asked, limits.pair_distance);
+  }
 }
 
 }  // namespace swarm_planner

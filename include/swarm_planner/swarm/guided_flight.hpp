@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "swarm_planner/guide/guide_planner.hpp"
 #include "swarm_planner/problem/uav_problem.hpp"
@@ -53,6 +54,9 @@ class GuidedFlight {
   bool is_new_ = false;
   bool needs_fresh_start_ = false;
   int held_up_ = 0;  ///< cycles since a fresh start in which the plan did not get on
+  /// Targets are ahead on the guide by no more [m]: those far round a corner draw a UAV that is held up towards what
+  /// the guide leads round.
+  double lead_ = std::numeric_limits<double>::infinity();
   bool has_no_way_ = false;
   std::uint32_t version_ = 0;
   std::uint32_t number_ = 0;
