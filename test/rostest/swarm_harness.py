@@ -156,11 +156,23 @@ class Diagnostics:
             return entry if entry and entry.level == level and text in entry.message else None
         return wait_for(says, 'diagnostics of "%s" that say: %s' % (name, text))
 
-    def count(self, name, key):
-        """The value of a counter; 0 as long as it has not been published."""
-        status = self.entry(name)
+    @staticmethod
+    def _value(status, key):
         values = {each.key: each.value for each in status.values} if status else {}
         return int(values.get(key, 0))
+
+    def count(self, name, key):
+        """The value of a counter; 0 as long as it has not been published."""
+        return self._value(self.entry(name), key)
+
+    def settled_count(self, name, key):
+        """The same once nothing that was sent before is on its way any more: three reports in a row agree."""
+        begin = len(self.entries(name))
+
+        def settled():
+            last = [self._value(status, key) for status in self.entries(name)[begin:]][-3:]
+            return last if len(last) == 3 and len(set(last)) == 1 else None
+        return wait_for(settled, '"%s" of %s to stay the same' % (key, name))[-1]
 
     def wait_for_count(self, name, key, more_than, publish=lambda: None):
         """Publishes until the count has grown."""

@@ -118,6 +118,7 @@ class BadInputTest(unittest.TestCase):
 
     def test_same_odometry_without_a_defect_is_used(self):
         fault_reasons = ('not finite', 'absurdly large', 'bad orientation', 'too long', 'unknown frame', 'too old')
+        self.diagnostics.settled_count(UAV2, DROPPED[UAV2])
         before = [self.dropped(UAV2, reason) for reason in fault_reasons]
         self.vehicles[1].spoil = lambda message: None
         rate = rospy.Rate(20)
@@ -184,14 +185,14 @@ class BadInputTest(unittest.TestCase):
         self.assert_counted(TRACKS, [(reason, functools.partial(publish, center)) for reason, center in table])
 
     def test_a_few_good_tracks_are_neither_too_many_nor_bad(self):
-        before = self.diagnostics.count(TRACKS, DROPPED[TRACKS])
+        before = self.diagnostics.settled_count(TRACKS, DROPPED[TRACKS])
 
         def seen():
             self.tracks.publish(track_array([self.near_uav1(), (300.0, 0.0, 0.0)], rospy.Time.now()))
             rospy.sleep(0.1)
             return math.isfinite(self.planner.uav('uav1').obstacle_clearance)
         wait_for(seen, 'a clearance to the obstacle')
-        self.assertEqual(self.diagnostics.count(TRACKS, DROPPED[TRACKS]), before)
+        self.assertEqual(self.diagnostics.settled_count(TRACKS, DROPPED[TRACKS]), before)
 
     def test_transforms(self):
         def spoiled(change):
@@ -214,11 +215,11 @@ class BadInputTest(unittest.TestCase):
                  ('unknown frame', lambda t: setattr(t, 'child_frame_id', 'map')),
                  ('too long', lambda t: setattr(t, 'child_frame_id', TEN_MEGABYTES)))
         self.assert_counted(TRANSFORMS, [(reason, functools.partial(publish, change)) for reason, change in table])
-        before = self.diagnostics.count(TRANSFORMS, DROPPED[TRANSFORMS])
+        before = self.diagnostics.settled_count(TRANSFORMS, DROPPED[TRANSFORMS])
         for _ in range(5):
             self.transforms.publish(spoiled(lambda t: None))
             rospy.sleep(0.1)
-        self.assertEqual(self.diagnostics.count(TRANSFORMS, DROPPED[TRANSFORMS]), before)
+        self.assertEqual(self.diagnostics.settled_count(TRANSFORMS, DROPPED[TRANSFORMS]), before)
 
     def test_set_reference(self):
         def request(uav='uav3', path=(Point(0, 20, 20), Point(400, 20, 20)), start=0.0, speed=2.0, frame='map'):
