@@ -53,9 +53,11 @@ double leastClearance(const HalfSpace& half_space, const SegmentPoints& relative
 }
 
 /// Lower bound of the distance from a point `r` relative to the centre to the surface S = 1 [m], which is what counts
-/// as clearance: eps_s belongs to the constraint (7) alone. Just some distance above `limit` if it is certainly above.
+/// as clearance: eps_s belongs to the constraint (7) alone. Just some distance above `limit` >= 0 if it is certainly
+/// above.
 double surfaceDistance(const Superellipsoid& obstacle, const Vector3& r, double limit) {
-  const double at_least = r.norm() - obstacle.boundingRadius();
+  const double at_least =
+      std::max((r.cwiseAbs() - obstacle.halfExtents()).cwiseMax(0.0).norm(), r.norm() - obstacle.boundingRadius());
   if (at_least > limit) return at_least;
   const Gauge gauge = obstacle.gauge(r);
   return (gauge.value - 1.0) / gauge.gradient.norm();
@@ -160,15 +162,19 @@ PredictedClearance predictedClearance(const UavProblem& problem, const Trajector
   const LimitParameters& limits = problem.parameters->limits;
   const double uav_radius = limits.as_paper ? 0.0 : limits.uav_radius;
   PredictedClearance least{kInfinity, kInfinity};
+  Box box;
+  for (const KinematicState& knot : plan.knots) box.include(knot.p);
   for (const MovingBody& body : problem.bodies) {
+    const double reach = body.isUav() ? least.pair : least.obstacle + uav_radius;
+    if (!body.box().near(box, std::max(reach, 0.0))) continue;
     for (int k = 0; k <= kHorizon; ++k) {
       const Vector3 reference = k < kHorizon ? body.point(k, 0) : body.point(kHorizon - 1, 3);
       const Vector3 r = plan.knots[static_cast<std::size_t>(k)].p - reference;
       if (body.isUav()) {
         least.pair = std::min(least.pair, r.norm());
       } else {
-        const double clearance = surfaceDistance(*body.obstacle(), r, least.obstacle + uav_radius) - uav_radius;
-        least.obstacle = std::min(least.obstacle, clearance);
+        const double limit = std::max(least.obstacle + uav_radius, 0.0);
+        least.obstacle = std::min(least.obstacle, surfaceDistance(*body.obstacle(), r, limit) - uav_radius);
       }
     }
   }

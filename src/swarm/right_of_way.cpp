@@ -190,9 +190,8 @@ void RightOfWay::resolve(std::size_t i, const NeighbourLists& neighbours) {
     if (!mayAsk(i, blocker.uav)) continue;
     if (ask(i, blocker.uav, neighbours)) continue;
     // It has nowhere to go. If it wants to come this way, it is for this one to leave, this once.
-    if (!traffic.gives_way && !isSettled((*uavs_)[blocker.uav].traffic)) {
-      if (ask(blocker.uav, i, neighbours)) return;
-    }
+    const bool comes_this_way = !isSettled((*uavs_)[blocker.uav].traffic) && !givesWayTo(blocker.uav, i);
+    if (!traffic.gives_way && comes_this_way && ask(blocker.uav, i, neighbours)) return;
   }
 }
 
@@ -202,8 +201,19 @@ bool RightOfWay::mayAsk(std::size_t i, std::size_t j) const {
   if (!other.takes_part || searches_ >= kSearchesPerCycle || epoch_ < other.next_search) return false;
   const bool insists = epoch_ - uav.traffic.anchored_since >= uav.traffic.insistence * patience_;
   if (isSettled(other) && !insists) return false;
+  if (givesWayTo(i, j)) return false;
   const Rank mine = rankOf(i);
   return mine.uav != j && mine.precedes(rankOf(j));
+}
+
+bool RightOfWay::givesWayTo(std::size_t i, std::size_t j) const {
+  for (std::size_t steps = 0; steps < uavs_->size(); ++steps) {
+    const TrafficState& traffic = (*uavs_)[i].traffic;
+    if (!traffic.gives_way) return false;
+    i = traffic.beneficiary;
+    if (i == j) return true;
+  }
+  return false;
 }
 
 bool RightOfWay::ask(std::size_t i, std::size_t j, const NeighbourLists& neighbours) {

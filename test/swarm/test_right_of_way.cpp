@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "perfect_flight.hpp"
@@ -19,6 +20,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kArrived = 0.2;  // [m]
+constexpr double kCell = 2.6;     // [m]
 
 Mission without(Mission mission) {
   mission.parameters.limits.right_of_way = false;
@@ -49,6 +51,36 @@ int arrivedAfter(const Mission& mission, double seconds) {
 Mission unguided(Mission mission) {
   mission.parameters.limits.guide = false;
   return mission;
+}
+
+/// Places in a square room, `side` in a row, that have a little more room than UAVs need.
+std::vector<Vector3> roomCells(int side) {
+  std::vector<Vector3> cells;
+  for (int i = 0; i < side * side; ++i) cells.emplace_back(kCell * (i % side), kCell * (i / side), 5.0);
+  return cells;
+}
+
+Workspace roomAround(int side) {
+  const double end = kCell * (side - 1) + 1.5;
+  return {Vector3(-1.5, -1.5, 4.2), Vector3(end, end, 5.8)};
+}
+
+void shuffle(std::vector<Vector3>& cells, Random& random) {
+  for (std::size_t i = cells.size() - 1; i > 0; --i) {
+    std::swap(cells[i], cells[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
+  }
+}
+
+/// Whether some UAV gives way to one that gives way, and so on, to itself: none of them would ever be past.
+bool givesWayInACircle(const CycleReport& report) {
+  for (std::size_t i = 0; i < report.uavs.size(); ++i) {
+    std::size_t next = i;
+    for (std::size_t steps = 0; report.uavs[next].reason == Reason::kGivesWay && steps < report.uavs.size(); ++steps) {
+      next = report.uavs[next].partner;
+      if (next == i) return true;
+    }
+  }
+  return false;
 }
 
 TEST(RightOfWay, ThroughAnOpeningThatFitsOneBothWays) {
@@ -188,21 +220,15 @@ TEST(RightOfWay, IsTheSameForAnyNumberOfThreads) {
 TEST(RightOfWay, NobodyStarvesInACrowdedRoom) {
   constexpr int kUavs = 9;
   Random random(7);
-  std::vector<Vector3> cells;
-  for (int i = 0; i < 16; ++i) cells.emplace_back(2.6 * (i % 4), 2.6 * (i / 4), 5.0);
-  const auto shuffle = [&] {
-    for (std::size_t i = cells.size() - 1; i > 0; --i) {
-      std::swap(cells[i], cells[static_cast<std::size_t>(random.integer(0, static_cast<int>(i)))]);
-    }
-  };
-  shuffle();
+  std::vector<Vector3> cells = roomCells(4);
+  shuffle(cells, random);
   Mission mission =
       makeTestMission({cells.begin(), cells.begin() + kUavs}, {cells.begin(), cells.begin() + kUavs}, 3.0);
-  mission.scenario.workspace = Workspace{Vector3(-1.5, -1.5, 4.2), Vector3(9.3, 9.3, 5.8)};
+  mission.scenario.workspace = roomAround(4);
   PerfectFlight flight(mission);
   flight.cycle();
   for (int round = 0; round < 12; ++round) {
-    shuffle();
+    shuffle(cells, random);
     for (std::size_t i = 0; i < kUavs; ++i) {
       flight.planner().setReference(i, {flight.vehicle(i).p, cells[i]}, 0.0, 3.0);
       mission.scenario.uavs[i].reference = {cells[i]};
@@ -211,6 +237,31 @@ TEST(RightOfWay, NobodyStarvesInACrowdedRoom) {
     EXPECT_EQ(arrivedOf(flight, mission), kUavs) << "round " << round;
   }
   EXPECT_GE(flight.leastPairGauge(), 1.0);
+}
+
+// A UAV that is past, asked by one that still gives way to it, or one that lets out whoever gives way to it: both would
+// wait until their patience ends.
+TEST(RightOfWay, NobodyGivesWayInACircle) {
+  for (const auto& [side, seed] : {std::pair(5, 1U), std::pair(7, 13U)}) {
+    Random random(seed);
+    std::vector<Vector3> starts = roomCells(side);
+    shuffle(starts, random);
+    std::vector<Vector3> ends = starts;
+    shuffle(ends, random);
+    const auto uavs = static_cast<std::ptrdiff_t>(0.6 * static_cast<double>(starts.size()));
+    Mission mission =
+        makeTestMission({starts.begin(), starts.begin() + uavs}, {ends.begin(), ends.begin() + uavs}, 3.0);
+    mission.scenario.workspace = roomAround(side);
+    PerfectFlight flight(mission);
+    std::ptrdiff_t gave_way = 0;
+    for (int cycle = 0; cycle < 100; ++cycle) {
+      const CycleReport& report = flight.cycle();
+      ASSERT_FALSE(givesWayInACircle(report)) << side << " " << cycle;
+      gave_way += std::count_if(report.uavs.begin(), report.uavs.end(),
+                                [](const UavReport& uav) { return uav.reason == Reason::kGivesWay; });
+    }
+    EXPECT_GT(gave_way, 100) << "hardly anybody gives way: this shows nothing";
+  }
 }
 
 }  // namespace

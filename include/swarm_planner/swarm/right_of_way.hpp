@@ -47,6 +47,8 @@ class RightOfWay {
   /// Asks UAV `j` to leave the way of UAV i. False if it has no place to go.
   bool ask(std::size_t i, std::size_t j, const NeighbourLists& neighbours);
   bool mayAsk(std::size_t i, std::size_t j) const;
+  /// Whether UAV i gives way to UAV j, or to one that does, and so on: asked in turn, j would never be past.
+  bool givesWayTo(std::size_t i, std::size_t j) const;
   /// Whether the references' ends are too close for both to be there, and j has got to where it stays, hardly farther
   /// from its end than i is from its own.
   bool sharesEnd(std::size_t i, std::size_t j) const;
