@@ -162,7 +162,8 @@ bool JointPlanner::agree(double epoch, std::vector<UavRecord>& records, Surround
   bool all = true;
   drafts_.clear();
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    drafts_.push_back(&planners_[m].draft(plans_.plans[m], records[members_[m]]));
+    const std::size_t i = members_[m];
+    drafts_.push_back(&planners_[m].draft(i, plans_.plans[m], records[i], surroundings));
     all = all && drafts_.back()->isFinite();
   }
   if (!all) return false;
@@ -172,7 +173,7 @@ bool JointPlanner::agree(double epoch, std::vector<UavRecord>& records, Surround
   }
   for (std::size_t m = 0; m < members_.size(); ++m) {
     const std::size_t i = members_[m];
-    all = all && planners_[m].passes(i, epoch, records[i], surroundings);
+    all = all && planners_[m].passesAsDrafted(i, epoch, records[i], surroundings);
   }
   for (const std::size_t i : members_) {
     const MotionMemory& motions = records[i].motions;
