@@ -2,7 +2,6 @@
 #include "swarm_planner/sqp/joint_sqp_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -38,7 +37,8 @@ JointSqpSolver::JointSqpSolver(std::unique_ptr<JointQpSolver> qp_solver)
   kept_rows_.reserve(kMostPairRows);
 }
 
-const std::vector<SqpResult>& JointSqpSolver::solve(const JointProblem& problem, JointPlans& plans) {
+const std::vector<SqpResult>& JointSqpSolver::solve(const JointProblem& problem, JointPlans& plans,
+                                                    const IsSpent& is_spent) {
   const std::size_t count = problem.uavs.size();
   for (SegmentPlanes& planes : planes_.of_uavs) planes.clear();
   planes_.of_pairs.clear();
@@ -63,6 +63,7 @@ const std::vector<SqpResult>& JointSqpSolver::solve(const JointProblem& problem,
     const JointComponents components = findMovingComponents(problem, answer);
     findStep(problem, components, plans.plans);
     takeStep(problem, components, answer, plans.plans);
+    if (is_spent()) break;
   }
   for (std::size_t i = 0; i < count; ++i) {
     plans.active[i] = solution_->active[i];
@@ -224,6 +225,16 @@ void JointSqpSolver::judgeCandidate(const JointProblem& problem) {
   }
 }
 
+bool JointSqpSolver::leans(const JointProblem& problem, const JointComponents& components,
+                           std::size_t component) const {
+  for (std::size_t i = 0; i < problem.uavs.size(); ++i) {
+    if (components[i] == component && leansOnBodies(solution_->active[i])) return true;
+  }
+  const std::vector<ActiveRow>& pairs = solution_->active_pairs.rows;
+  return std::any_of(pairs.begin(), pairs.end(),
+                     [&](const ActiveRow& row) { return components[firstOf(row.source)] == component; });
+}
+
 void JointSqpSolver::takeStep(const JointProblem& problem, const JointComponents& components,
                               const std::vector<Trajectory>& answer, std::vector<Trajectory>& plans) {
   const std::size_t count = plans.size();
@@ -237,11 +248,11 @@ void JointSqpSolver::takeStep(const JointProblem& problem, const JointComponents
       moved = std::max(moved, largestMove(plans[i], candidate_[i]));
       iterations = std::max(iterations, results_[i].iterations);
     }
-    const double gain =
-        meritOf(merit_, problem, components, component) - meritOf(candidate_merit_, problem, components, component);
+    const double merit = meritOf(candidate_merit_, problem, components, component);
+    const double gain = meritOf(merit_, problem, components, component) - merit;
     const double promised =
         objective(qp_, plans, components, component) - objective(qp_, answer, components, component);
-    const bool is_foretold = std::abs(gain - promised) < kForetold * promised;
+    const bool is_foretold = isForetold(gain, promised, merit, leans(problem, components, component), iterations);
     const double tolerance = problem.uavs.front()->parameters->sqp.step_tolerance;
     const bool is_done = wanted < tolerance || is_foretold || (moved == 0.0 && iterations > 1);
     for (std::size_t i = 0; i < count; ++i) {

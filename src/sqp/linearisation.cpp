@@ -202,6 +202,11 @@ void linearise(const UavProblem& problem, const Trajectory& iterate, double band
   if (problem.corridor.active) addCorridorRows(problem, iterate, band, qp);
 }
 
+bool leansOnBodies(const ActiveRows& active) {
+  return std::any_of(active.rows.begin(), active.rows.begin() + active.count,
+                     [](const ActiveRow& row) { return row.source >= kBodySource && row.source < kCorridorSource; });
+}
+
 void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp) {
   for (int k = 1; k <= kHorizon; ++k) {
     addNormTangents(problem.bounds, answer.knots[static_cast<std::size_t>(k)], k, 1.0,

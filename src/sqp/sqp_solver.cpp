@@ -2,7 +2,6 @@
 #include "swarm_planner/sqp/sqp_solver.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "step_rules.hpp"
@@ -37,9 +36,9 @@ SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRo
     const double promised = qp_->objective(plan) - qp_->objective(answer);
     const double before = current.value;
     const double moved = acceptStep(problem, plan, current);
-    // Where the QP foretold what the step would gain, another one has no more to gain than it was wrong by.
-    const bool foretold = std::abs(before - current.value - promised) < kForetold * promised;
-    if (wanted < settings.step_tolerance || foretold || (moved == 0.0 && result.iterations > 1)) break;
+    const bool is_foretold = isForetold(before - current.value, promised, current.value,
+                                        leansOnBodies(solution_->active), result.iterations);
+    if (wanted < settings.step_tolerance || is_foretold || (moved == 0.0 && result.iterations > 1)) break;
   }
   active = solution_->active;
   result.max_violation = current.largest_violation;

@@ -19,8 +19,13 @@ void JointGroups::buildOne(const std::vector<Candidate>& candidates, const Surro
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   const auto first = std::find_if(candidates.begin(), candidates.end(),
                                   [](const Candidate& candidate) { return candidate.may_be_grouped; });
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].may_be_grouped) parent_[i] = static_cast<std::size_t>(first - candidates.begin());
+  const auto root = static_cast<std::size_t>(first - candidates.begin());
+  for (std::size_t i = root + 1; i < candidates.size(); ++i) {
+    bool fits = candidates[i].may_be_grouped;
+    for (std::size_t member = root; member < i && fits; ++member) {
+      fits = parent_[member] != root || !excludeEachOther(candidates[i], candidates[member], surroundings);
+    }
+    if (fits) parent_[i] = root;
   }
   list(surroundings);
 }
@@ -31,6 +36,10 @@ void JointGroups::build(const std::vector<Candidate>& candidates, const Surround
   list(surroundings);
 }
 
+bool JointGroups::excludeEachOther(const Candidate& a, const Candidate& b, const Surroundings& surroundings) {
+  return surroundings.pairGauge(a.end - b.end) < 1.0;
+}
+
 void JointGroups::findPartners(std::size_t uav, const std::vector<Candidate>& candidates,
                                const Surroundings& surroundings) {
   Partners& partners = partners_[uav];
@@ -38,7 +47,7 @@ void JointGroups::findPartners(std::size_t uav, const std::vector<Candidate>& ca
   if (!candidates[uav].may_be_grouped) return;
   for (const std::uint32_t other : surroundings.neighbours().of(uav)) {
     if (!candidates[other].may_be_grouped) continue;
-    if (surroundings.pairGauge(candidates[uav].end - candidates[other].end) < 1.0) continue;
+    if (excludeEachOther(candidates[uav], candidates[other], surroundings)) continue;
     const double gauge = surroundings.leastPairGauge(uav, other, kStrong);
     if (!(gauge < kStrong)) continue;
     const auto begin = partners.pairs.begin();

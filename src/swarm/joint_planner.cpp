@@ -60,7 +60,7 @@ void JointPlanner::plan(const std::size_t* group, std::size_t count, double epoc
   if (members_.empty()) return;
   pose(epoch, records, surroundings);
   takeGuess(epoch, guess);
-  solve(records);
+  solve(time, records);
   storeGuess(epoch, guess);
   const bool is_solved = results_.front().solved;
   const bool agreed = is_solved && agree(epoch, records, surroundings);
@@ -124,13 +124,13 @@ void JointPlanner::storeGuess(double epoch, JointGuess& guess) const {
   guess.rows.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), kGuessRoom)));
 }
 
-void JointPlanner::solve(const std::vector<UavRecord>& records) {
-  const std::vector<SqpResult>& results = sqp_.solve(problem_, plans_);
+void JointPlanner::solve(const PlanningTime& time, const std::vector<UavRecord>& records) {
+  const std::vector<SqpResult>& results = sqp_.solve(problem_, plans_, [&time] { return time.isSpent(); });
   results_.assign(results.begin(), results.end());
-  solveAlongGuides(records);
+  if (!time.isSpent()) solveAlongGuides(time, records);
 }
 
-void JointPlanner::solveAlongGuides(const std::vector<UavRecord>& records) {
+void JointPlanner::solveAlongGuides(const PlanningTime& time, const std::vector<UavRecord>& records) {
   bool any = false;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!records[members_[m]].guide.needsFreshStart()) continue;
@@ -146,7 +146,7 @@ void JointPlanner::solveAlongGuides(const std::vector<UavRecord>& records) {
     results_[m].qp_iterations += alone.qp_iterations;
   }
   if (!any) return;
-  const std::vector<SqpResult>& others = sqp_.solve(problem_, along_);
+  const std::vector<SqpResult>& others = sqp_.solve(problem_, along_, [&time] { return time.isSpent(); });
   const SqpResult first = results_.front(), other = others.front();
   const bool is_better = other.solved && (!first.solved || other.merit < first.merit);
   if (is_better) std::swap(plans_, along_);
@@ -162,7 +162,8 @@ bool JointPlanner::agree(double epoch, std::vector<UavRecord>& records, Surround
   bool all = true;
   drafts_.clear();
   for (std::size_t m = 0; m < members_.size(); ++m) {
-    drafts_.push_back(&planners_[m].draft(plans_.plans[m], records[members_[m]]));
+    const std::size_t i = members_[m];
+    drafts_.push_back(&planners_[m].draft(i, plans_.plans[m], records[i], surroundings));
     all = all && drafts_.back()->isFinite();
   }
   if (!all) return false;
@@ -172,7 +173,7 @@ bool JointPlanner::agree(double epoch, std::vector<UavRecord>& records, Surround
   }
   for (std::size_t m = 0; m < members_.size(); ++m) {
     const std::size_t i = members_[m];
-    all = all && planners_[m].passes(i, epoch, records[i], surroundings);
+    all = all && planners_[m].passesAsDrafted(i, epoch, records[i], surroundings);
   }
   for (const std::size_t i : members_) {
     const MotionMemory& motions = records[i].motions;

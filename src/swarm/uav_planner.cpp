@@ -7,6 +7,7 @@
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
 #include "swarm_planner/swarm/pair_check.hpp"
+#include "swarm_planner/swarm/place_beside.hpp"
 #include "swarm_planner/swarm/plan_parts.hpp"
 #include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/planner_limits.hpp"
@@ -88,13 +89,21 @@ SqpResult UavPlanner::leadAlongGuide(Trajectory& start_plan) {
   return alone;
 }
 
-const CommittedMotion& UavPlanner::draft(const Trajectory& plan, const UavRecord& record) {
-  StopManoeuvre stop;
+const CommittedMotion& UavPlanner::draft(std::size_t uav, const Trajectory& plan, const UavRecord& record,
+                                         const Surroundings& surroundings) {
   plan_ = plan;
   keepJerkLimit(record.start);
-  planStop(plan_.knots.back(), plan_.dt, limits_.bounds, stop);
-  motion_.assign(plan_, stop);
+  const CheckReason reason = judge(uav, surroundings, plan_).reason;
+  keeps_bounds_ = reason == CheckReason::kAccepted || reason >= CheckReason::kWorkspace;
   return motion_;
+}
+
+bool UavPlanner::passesAsDrafted(std::size_t uav, double epoch, const UavRecord& record,
+                                 const Surroundings& surroundings) {
+  if (!parameters_.limits.plan_check) return true;
+  survey(uav, epoch, record, surroundings);
+  return keeps_bounds_ && surroundings.isWithinArea(uav, motion_) &&
+         checkClearance(motion_, committed_, limits_, check_).accepted();
 }
 
 bool UavPlanner::passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings) {
@@ -270,8 +279,22 @@ CheckVerdict UavPlanner::judge(std::size_t uav, const Surroundings& surroundings
     return {};
   }
   CheckVerdict verdict = checkPlan(plan, plan.knots.front(), committed_, limits_, check_, motion_);
+  if (verdict.reason == CheckReason::kRestingPlace && stopBeside(verdict, plan)) verdict = {};
   if (verdict.accepted() && !surroundings.isWithinArea(uav, motion_)) verdict.reason = CheckReason::kOutOfArea;
   return verdict;
+}
+
+bool UavPlanner::stopBeside(const CheckVerdict& verdict, const Trajectory& plan) {
+  const std::optional<Vector3> place = placeBeside(motion_.restingPlace(), static_cast<std::size_t>(verdict.body),
+                                                   plan.epoch + plan.duration(), limits_, check_);
+  if (!place) return false;
+  StopManoeuvre stop;
+  planStopAt(plan.knots.back(), *place, plan.dt, limits_.bounds, stop);
+  if (!stop.within_bounds) return false;
+  beside_.assign(plan, stop);
+  if (!checkClearance(beside_, committed_, limits_, check_).accepted()) return false;
+  motion_ = beside_;
+  return true;
 }
 
 void UavPlanner::fillReport(double epoch, const UavRecord& record, UavReport& report) {

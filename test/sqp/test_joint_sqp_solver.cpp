@@ -136,6 +136,20 @@ TEST_F(JointSqp, BothOfACrossingPairGiveWay) {
   }
 }
 
+TEST_F(JointSqp, StopsAfterTheQpInWhichTheTimeIsSpent) {
+  for (const int allowed : {1, 2, 100}) {
+    Flight flight;
+    flight.add(Vector3(0, 0, 10), Vector3(100, 0, 10), 3.0);
+    flight.add(Vector3(9, -9, 10), Vector3(9, 91, 10), 3.0);
+    flight.addAllPairs();
+    int asked = 0;
+    const SqpResult result = solver_.solve(flight.problem, flight.plans, [&] { return ++asked >= allowed; })[0];
+    EXPECT_TRUE(result.solved);
+    EXPECT_EQ(result.iterations, asked);
+    EXPECT_TRUE(allowed < 100 ? result.iterations == allowed : result.iterations > 2) << result.iterations;
+  }
+}
+
 TEST_F(JointSqp, NeverMakesPlansWorse) {
   Random random(3);
   for (int trial = 0; trial < 60; ++trial) {

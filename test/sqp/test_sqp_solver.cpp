@@ -12,6 +12,8 @@
 #include "support/flight_problem.hpp"
 #include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 #include "swarm_planner/problem/tracking_cost.hpp"
+#include "swarm_planner/solver/generated_solver.hpp"
+#include "swarm_planner/sqp/linearisation.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 
 namespace swarm_planner {
@@ -53,6 +55,26 @@ TEST_F(SqpSolverTest, StopsWhenTheQpForetoldTheGain) {
   Trajectory again = plan;
   solveCold(solver_, flight.problem, again);
   EXPECT_LT(largestDistance(plan, again), 1e-4);
+}
+
+TEST(LeaningPlan, IsNotDoneWhenTheQpForetoldItsGain) {
+  // From rest, the first QP has a plane right across the way, and foretells that the plan stops before it.
+  FlightProblem flight(kLine, 3.0, {Vector3(0, 0, 10), Vector3::Zero(), Vector3::Zero()});
+  const double dt = flight.problem.dt;
+  flight.addUav(straightPlan(Vector3(6, 0.5, 10), Vector3::Zero(), 0.0, dt));
+  const QpModels models = makeQpModels(flight.parameters);
+  const auto tables = std::make_shared<GeneratedTables>(std::vector<QpModel>{models.straight, models.corner});
+  SqpSolver solver(std::make_unique<GeneratedSolver>(tables));
+  const auto end = [&](int iterations) {
+    flight.parameters.sqp.max_iterations = iterations;
+    Trajectory plan = flight.coasting();
+    const SqpResult result = solveCold(solver, flight.problem, plan);
+    EXPECT_LT(result.max_violation, 0.01);
+    return plan.knots.back().p.x();
+  };
+  const double first = end(1);
+  EXPECT_LT(first, 6.0) << "the first plan passes already: the test shows nothing";
+  EXPECT_GT(end(5), first + 1.0);
 }
 
 TEST_F(SqpSolverTest, NeverMakesAPlanWorse) {

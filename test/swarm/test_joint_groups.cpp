@@ -36,6 +36,11 @@ class Resting {
     groups.build(candidates, surroundings_, team);
     return groups;
   }
+  JointGroups groupOfAll() {
+    JointGroups groups(candidates.size());
+    groups.buildOne(candidates, surroundings_);
+    return groups;
+  }
   /// Distance that two UAVs keep from each other, the margin included [m].
   double distance() const { return surroundings_.pairDistances().horizontal; }
 
@@ -82,6 +87,18 @@ TEST(JointGroups, LeavesOutWhoMayNotBeGroupedAndWhoseEndsAreOne) {
   EXPECT_EQ(swarm.groups().count(), 2U);
   swarm.candidates[2].end = swarm.candidates[0].end;
   EXPECT_EQ(swarm.groups().count(), 3U);
+}
+
+TEST(JointGroups, OneOfAllLeavesOutWhoseEndIsTaken) {
+  Resting swarm({Vector3(0, 0, 9), Vector3(20, 0, 9), Vector3(40, 0, 9), Vector3(60, 0, 9), Vector3(80, 0, 9)});
+  EXPECT_EQ(swarm.groupOfAll().count(), 1U);
+  swarm.candidates[0].may_be_grouped = false;
+  swarm.candidates[3].end = swarm.candidates[1].end + Vector3(1, 0, 0);
+  const JointGroups groups = swarm.groupOfAll();
+  expectPartition(groups, 5);
+  EXPECT_EQ(groups.count(), 3U);
+  EXPECT_EQ(groups.groupOf(2), groups.groupOf(1));
+  EXPECT_EQ(groups.groupOf(4), groups.groupOf(1));
 }
 
 TEST(JointGroups, CrowdsBecomeGroupsThatCanBeSolvedForAnyNumberOfThreads) {

@@ -68,6 +68,35 @@ TEST(JointPlanner, UavsThatDoNotMeetFlyAsTheyWouldAlone) {
   }
 }
 
+TEST(JointPlanner, OfUavsThatAreSentToOnePlaceOneGetsThereAndTheOthersPark) {
+  const Vector3 end(0, 0, 10);
+  const std::vector<Vector3> starts{{-9, 0, 10}, {0, 9, 10}, {8, 0, 10}, {0, -8, 10}};
+  PerfectFlight flight(makeTestMission(starts, std::vector<Vector3>(starts.size(), end), 2.0), 0.0,
+                       PlanningMode::kJoint);
+  flight.cycles(60);
+  int there = 0, parked = 0;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    there += (flight.vehicle(i).p - end).norm() < 0.2 ? 1 : 0;
+    parked += flight.planner().report().uavs[i].reason == Reason::kParked ? 1 : 0;
+  }
+  EXPECT_EQ(there, 1);
+  EXPECT_EQ(parked, 3);
+  EXPECT_GE(flight.leastPairGauge(), 1.0 - kRoundingOfGauge);
+}
+
+TEST(JointPlanner, SolvesNoFurtherQpOnceTheTimeIsSpent) {
+  PerfectFlight flight(swap(4, 12.0), 0.0, PlanningMode::kJoint), unhurried(swap(4, 12.0), 0.0, PlanningMode::kJoint);
+  int most = 0;
+  for (int cycle = 0; cycle < 60; ++cycle) {
+    const CycleReport& report = flight.cycle(nullptr, 0.0);
+    // The first is planned for anew if its joint plan is refused.
+    for (std::size_t i = 1; i < 4; ++i) EXPECT_LE(report.uavs[i].sqp_iterations, 1) << "cycle " << cycle;
+    for (const UavReport& uav : unhurried.cycle().uavs) most = std::max(most, uav.sqp_iterations);
+  }
+  EXPECT_GT(most, 1) << "no QP more would have been solved anyway";
+  EXPECT_GE(flight.leastPairGauge(), 1.0 - kRoundingOfGauge);
+}
+
 TEST(JointPlanner, GoesOnWhereAUavIsNotSeen) {
   PerfectFlight flight(crossingPair(), 0.0, PlanningMode::kJoint);
   flight.cycles(10);

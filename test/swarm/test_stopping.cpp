@@ -119,6 +119,49 @@ TEST(PlanStop, TakesTheGentlestWhereNoneKeepsTheBounds) {
   EXPECT_TRUE(stop.within_bounds);
 }
 
+TEST(RollOutStopAt, ComesToRestThereWithTheLeastJerk) {
+  Random random(5);
+  for (int n = 0; n < 2000; ++n) {
+    const KinematicState x = randomState(random, 8.0, 12.0);
+    const Vector3 place = x.p + random.vector(-20.0, 20.0);
+    const double dt = random.uniform(0.05, 0.5);
+    const int stages = random.integer(3, kMaxStopStages);
+    StopManoeuvre stop;
+    rollOutStopAt(x, place, stages, dt, stop);
+    double size = 1.0;
+    KinematicState y = x;
+    for (int k = 0; k < stages; ++k) {
+      const Vector3& jerk = stop.jerks[static_cast<std::size_t>(k)];
+      y = propagate(y, jerk, dt);
+      size = std::max(size, jerk.norm());
+    }
+    ASSERT_LT((y.p - place).norm(), 1e-11 * size);
+    ASSERT_LT(y.v.norm(), 1e-11 * size);
+    ASSERT_LT(y.a.norm(), 1e-11 * size);
+    // Third differences change neither the sum nor the first two moments: the least jerks have none.
+    for (std::size_t k = 0; k + 3 < static_cast<std::size_t>(stages); ++k) {
+      const Vector3 third = stop.jerks[k + 3] - stop.jerks[k] - 3.0 * (stop.jerks[k + 2] - stop.jerks[k + 1]);
+      ASSERT_LT(third.norm(), 1e-9 * size);
+    }
+  }
+}
+
+TEST(PlanStopAt, KeepsTheBoundsOrSaysThatItIsTooFar) {
+  const FlightBounds bounds = defaultBounds();
+  const KinematicState x{Vector3(1.0, 2.0, 3.0), Vector3(2.0, 0.0, 0.0), Vector3::Zero()};
+  for (const double away : {3.0, 8.0, 12.0}) {
+    StopManoeuvre stop;
+    planStopAt(x, x.p + Vector3(0.0, away, 0.0), 0.3, bounds, stop);
+    ASSERT_TRUE(stop.within_bounds) << away;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(stop.stages); ++k) {
+      ASSERT_LE(sampledRatio(bounds, stop.knots[k], stop.jerks[k], 0.3), 1.0 + 1e-8);
+    }
+  }
+  StopManoeuvre stop;
+  planStopAt(x, x.p + Vector3(0.0, 40.0, 0.0), 0.3, bounds, stop);
+  EXPECT_FALSE(stop.within_bounds) << "40 m in 6 s";
+}
+
 TEST(PlanStop, FlagsAStartThatIsTooFast) {
   StopManoeuvre stop;
   planStop({Vector3::Zero(), Vector3(5.01, 0.0, 0.0), Vector3::Zero()}, 0.3, defaultBounds(), stop);

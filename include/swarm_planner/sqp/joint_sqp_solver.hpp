@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -26,9 +27,13 @@ class JointSqpSolver {
   /// `qp_solver` has to take QPs of both makeQpModels of the problems' parameters.
   explicit JointSqpSolver(std::unique_ptr<JointQpSolver> qp_solver);
 
+  /// Tells that the time for planning is over.
+  using IsSpent = std::function<bool()>;
+
   /// At most kMostJointUavs UAVs. The results are those of the UAVs: with the changes of the active set of all in each,
-  /// and the merit of all.
-  const std::vector<SqpResult>& solve(const JointProblem& problem, JointPlans& plans);
+  /// and the merit of all. Once `is_spent`, asked after each QP, the plans stay as they are by then.
+  const std::vector<SqpResult>& solve(
+      const JointProblem& problem, JointPlans& plans, const IsSpent& is_spent = [] { return false; });
 
   /// Source of a pair's rows in the guess; the same from cycle to cycle if the pair's UAVs are.
   static RowSource sourceOf(const UavPair& pair) {
@@ -50,6 +55,8 @@ class JointSqpSolver {
   void findStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& plans);
   /// The merit of candidate_. Of a plan that stays it is what it was: half-spaces of a newer QP need not suit it.
   void judgeCandidate(const JointProblem& problem);
+  /// Whether rows of bodies or pairs were active in the newest QP of a component.
+  bool leans(const JointProblem& problem, const JointComponents& components, std::size_t component) const;
   /// Takes the step, and finds out which components are done.
   void takeStep(const JointProblem& problem, const JointComponents& components, const std::vector<Trajectory>& answer,
                 std::vector<Trajectory>& plans);

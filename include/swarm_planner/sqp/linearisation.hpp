@@ -33,6 +33,9 @@ std::optional<RowPlace> controlPointPlace(int k, int i);
 /// half-spaces: see findSeparatingPlanes.
 void linearise(const UavProblem& problem, const Trajectory& iterate, double band, Qp& qp, SegmentPlanes& planes);
 
+/// Whether rows of bodies are among those that were active in a QP of linearise().
+bool leansOnBodies(const ActiveRows& active);
+
 /// Adds tangent planes where an earlier answer of the same problem broke a norm limit: with the tangents at the
 /// iterate alone, the next answer may swing sideways past the limit. `number` tells the answers of one problem apart.
 void addNormCuts(const UavProblem& problem, const Trajectory& answer, int number, Qp& qp);

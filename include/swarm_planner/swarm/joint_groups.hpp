@@ -26,7 +26,8 @@ class JointGroups {
     Vector3 end = Vector3::Zero();  ///< of its reference [m]
   };
 
-  /// One group of all UAVs that may be grouped, which are no more than fit.
+  /// One group of all UAVs that may be grouped, which are no more than fit. Of those whose ends leave no room for all
+  /// the first is in it, the others take turns: at once they would meet around the end, and none would get there.
   void buildOne(const std::vector<Candidate>& candidates, const Surroundings& surroundings);
 
   /// UAVs interact strongly if their motions come closer within the horizon than kStrong times the distance that they
@@ -56,6 +57,7 @@ class JointGroups {
     std::size_t count = 0;
   };
 
+  static bool excludeEachOther(const Candidate& a, const Candidate& b, const Surroundings& surroundings);
   void findPartners(std::size_t uav, const std::vector<Candidate>& candidates, const Surroundings& surroundings);
   void joinPairs();
   std::size_t rootOf(std::size_t uav);

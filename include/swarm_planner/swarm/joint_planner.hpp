@@ -33,8 +33,9 @@ class JointPlanner {
   JointPlanner(const Parameters& parameters, const std::optional<Workspace>& workspace,
                const std::shared_ptr<const GeneratedTables>& tables, std::size_t max_bodies, std::size_t uavs);
 
-  /// Plans for `count` <= kMostJointUavs UAVs, whose indices are in order. `guess`: of the same UAVs as a rule; whose
-  /// it is changes the time, not the plans.
+  /// Plans for `count` <= kMostJointUavs UAVs, whose indices are in order. Once the time is spent no further QP is
+  /// solved for them: they get what there is by then. `guess`: of the same UAVs as a rule; whose it is changes the
+  /// time, not the plans.
   void plan(const std::size_t* group, std::size_t count, double epoch, const PlanningTime& time, JointGuess& guess,
             std::vector<UavRecord>& records, Surroundings& surroundings, std::vector<UavReport>& reports);
 
@@ -43,9 +44,9 @@ class JointPlanner {
   void posePairs(const Surroundings& surroundings);
   void takeGuess(double epoch, const JointGuess& guess);
   void storeGuess(double epoch, JointGuess& guess) const;
-  void solve(const std::vector<UavRecord>& records);
+  void solve(const PlanningTime& time, const std::vector<UavRecord>& records);
   /// Solves once more, from where the guides of those that need it alone would lead: the better solution stays.
-  void solveAlongGuides(const std::vector<UavRecord>& records);
+  void solveAlongGuides(const PlanningTime& time, const std::vector<UavRecord>& records);
   /// Whether all drafts pass among each other; leaves the surroundings as they were.
   bool agree(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings);
 

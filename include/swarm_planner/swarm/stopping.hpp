@@ -33,4 +33,13 @@ void rollOutStop(const KinematicState& x, int stages, double dt, StopManoeuvre& 
 /// bound is least, and within_bounds is false. The workspace is not looked at.
 void planStop(const KinematicState& x, double dt, const FlightBounds& bounds, StopManoeuvre& stop);
 
+/// The stop from `x` at `place` in `stages` >= 3 stages with the least sum of squared jerks. The place adds one
+/// condition per axis to those above: with q_k = w_k^2 - (M^2 - 1) / 12, which is orthogonal to both of them, and
+/// sum q_k^2 = M (M^2 - 1) (M^2 - 4) / 180, it is a third term of j_k. within_bounds is left false.
+void rollOutStopAt(const KinematicState& x, const Vector3& place, int stages, double dt, StopManoeuvre& stop);
+
+/// The shortest such stop that keeps the bounds between the knots too; within_bounds is false if none does.
+void planStopAt(const KinematicState& x, const Vector3& place, double dt, const FlightBounds& bounds,
+                StopManoeuvre& stop);
+
 }  // namespace swarm_planner

@@ -50,9 +50,12 @@ class UavPlanner {
   const UavProblem& problem() const { return problem_; }
   /// Another plan to start from: where the guide alone would lead.
   SqpResult leadAlongGuide(Trajectory& start_plan);
-  /// The motion of the solver's plan, its stop included; not checked.
-  const CommittedMotion& draft(const Trajectory& plan, const UavRecord& record);
-  /// Whether the draft passes the check among what the surroundings hold now.
+  /// The motion of the solver's plan with the stop that suits what there was to keep clear of at begin().
+  const CommittedMotion& draft(std::size_t uav, const Trajectory& plan, const UavRecord& record,
+                               const Surroundings& surroundings);
+  /// Whether the draft as it is passes the check among what the surroundings hold now.
+  bool passesAsDrafted(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
+  /// Whether it does with the stop that suits what they hold now.
   bool passes(std::size_t uav, double epoch, const UavRecord& record, const Surroundings& surroundings);
   /// Commits the draft, which has passed.
   void commitDraft(std::size_t uav, double epoch, UavRecord& record, Surroundings& surroundings,
@@ -93,7 +96,12 @@ class UavPlanner {
   void solveAlongGuide(ActiveRows& active, SqpResult& result);
   /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.
   void keepJerkLimit(const KinematicState& start);
+  /// Leaves the plan's motion: with the quickest stop or, if an obstacle comes to where that ends, with one beside the
+  /// obstacle's way, if that passes.
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
+  /// The stop of a plan that was refused with `verdict` for where it rests. True if its motion passes the check: it is
+  /// left then.
+  bool stopBeside(const CheckVerdict& verdict, const Trajectory& plan);
   /// The workspace for this cycle: down to the ground for landing; for a UAV that is outside no farther than the motion
   /// flown takes it anyway, so that it may come back.
   void setWorkspace(const UavRecord& record);
@@ -126,6 +134,8 @@ class UavPlanner {
   ActiveRows along_active_;
   std::vector<MovingBody> no_bodies_;
   CommittedMotion motion_;         ///< of the plan that is checked
+  CommittedMotion beside_;         ///< the same with another stop
+  bool keeps_bounds_ = false;      ///< the draft does
   CommittedMotion proposed_;       ///< of the solver's own plan, if it was refused
   bool flies_whole_plan_ = false;  ///< the solver's plan passed as it is
   bool has_proposal_ = false;
