@@ -125,15 +125,6 @@ void MovingBody::relieve(const Vector3& r, double margin) {
   relief_ = std::clamp(-supportingHalfSpace(r).clearance(r), 0.0, scale_.minCoeff() * margin);
 }
 
-SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points) {
-  SegmentPoints relative;
-  for (int i = 0; i < 4; ++i)
-    relative[static_cast<std::size_t>(i)] = points[static_cast<std::size_t>(i)] - body.point(k, i);
-  return relative;
-}
-
-Vector3 midpoint(const SegmentPoints& r) { return 0.125 * (r[0] + r[3]) + 0.375 * (r[1] + r[2]); }
-
 Vector3 nearestPoint(const SegmentPoints& points) {
   constexpr int kMostSteps = 6;
   constexpr double kEnough = 0.02;  // of the squared distance, that another control point may gain

@@ -94,13 +94,6 @@ void findConstrainedPoints(const UavProblem& problem, const Trajectory& plan, Pl
   }
 }
 
-SegmentPoints relativeConstrainedPoints(const UavProblem& problem, const PlanPoints& points, int k,
-                                        const MovingBody& body) {
-  SegmentPoints relative = relativePoints(body, k, points[static_cast<std::size_t>(k)]);
-  if (!problem.bounds.between_samples) relative.fill(Vector3(relative[3]));
-  return relative;
-}
-
 Box planBox(const PlanPoints& points) {
   Box box;
   for (const SegmentPoints& segment : points) {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kReachableSpeed = 0.7;  // of max_speed, sideways, when judging whether a way out can be reached
 constexpr double kSlight = 0.02;  // of the distance to keep; a plan that violates it by less leads past, not through
+constexpr double kGetsOn = 0.5;   // of the way at full speed; a plan that leads less far does not get on
 constexpr int kDropped = -1;      // in the place of a plane's segment
 
 /// The segments of an iterate as one body sees them.
@@ -22,11 +23,19 @@ struct Passage {
   int deepest = -1;  ///< segment that violates the distance most, and not only slightly
 };
 
+/// Whether a plan leads less far than it could although its targets are farther off.
+bool isHeldUp(const UavProblem& problem, const PlanPoints& points) {
+  const Vector3& end = points.back()[3];
+  const double full = problem.bounds.max_speed * problem.dt * kHorizon;
+  return (end - points.front()[0]).norm() < kGetsOn * full &&
+         (problem.targets.back().p - end).norm() > 2.0 * problem.parameters->limits.pair_distance;
+}
+
 void findPassage(const UavProblem& problem, const MovingBody& body, const PlanPoints& points, double band,
                  Passage& passage) {
   // Plans that lean on a body violate it by a hair as its surface turns. The plane of another way past would have them
-  // violate it by metres, and the step that mends this costs more than it gains.
-  double least = -kSlight * body.distance();
+  // violate it by metres, and the step that mends this costs more than it gains. Unless leaning leads nowhere.
+  double least = isHeldUp(problem, points) ? 0.0 : -kSlight * body.distance();
   passage.deepest = -1;
   for (int k = 0; k < kHorizon; ++k) {
     const auto i = static_cast<std::size_t>(k);

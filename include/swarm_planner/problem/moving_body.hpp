@@ -113,10 +113,13 @@ class MovingBody {
 };
 
 /// A segment's control points relative to a body's reference point [m].
-SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points);
+inline SegmentPoints relativePoints(const MovingBody& body, int k, const SegmentPoints& points) {
+  return {points[0] - body.point(k, 0), points[1] - body.point(k, 1), points[2] - body.point(k, 2),
+          points[3] - body.point(k, 3)};
+}
 
 /// The relative position at the middle of a segment [m].
-Vector3 midpoint(const SegmentPoints& relative);
+inline Vector3 midpoint(const SegmentPoints& r) { return 0.125 * (r[0] + r[3]) + 0.375 * (r[1] + r[2]); }
 
 /// About the point of the hull of a segment's control points that is nearest to the origin; zero where the hull holds
 /// the origin.

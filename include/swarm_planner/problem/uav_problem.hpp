@@ -53,8 +53,12 @@ void findConstrainedPoints(const UavProblem& problem, const Trajectory& plan, Pl
 Box planBox(const PlanPoints& points);
 
 /// Those of segment k relative to a body's reference point [m].
-SegmentPoints relativeConstrainedPoints(const UavProblem& problem, const PlanPoints& points, int k,
-                                        const MovingBody& body);
+inline SegmentPoints relativeConstrainedPoints(const UavProblem& problem, const PlanPoints& points, int k,
+                                               const MovingBody& body) {
+  SegmentPoints relative = relativePoints(body, k, points[static_cast<std::size_t>(k)]);
+  if (!problem.bounds.between_samples) relative.fill(Vector3(relative[3]));
+  return relative;
+}
 
 /// The first of these that counts: 0, or 3 where all four are the same knot.
 inline std::size_t firstConstrainedPoint(const FlightBounds& bounds) { return bounds.between_samples ? 0 : 3; }
