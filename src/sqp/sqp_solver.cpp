@@ -18,13 +18,13 @@ SqpSolver::SqpSolver(std::unique_ptr<QpSolver> qp_solver)
   planes_.reserve(kSegmentPlaneRoom);
 }
 
-SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active) {
+SqpResult SqpSolver::solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active, int most) {
   const SqpParameters& settings = problem.parameters->sqp;
   SqpResult result;
   Merit current = merit(problem, plan);
   candidate_ = plan;
   solution_->active = active;
-  while (result.iterations < settings.max_iterations) {
+  while (result.iterations < std::min(settings.max_iterations, most)) {
     const QpStatus status = solveQp(problem, plan, result.iterations);
     ++result.iterations;
     result.qp_iterations += solution_->iterations;

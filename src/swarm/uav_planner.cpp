@@ -20,6 +20,7 @@ namespace {
 constexpr double kSamePlace = 1e-6;  // starts closer than this are the same [m, m/s]
 constexpr double kPassed = 0.5;      // of the way flown per stage at full speed: a sharp corner nearer is passed
 constexpr double kStanding = 0.05;   // of max_speed: a slower UAV stands
+constexpr int kMostLeadingQps = 2;   // for a plan to start from, along a guide alone
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool areApart(const KinematicState& x, const KinematicState& y) {
@@ -249,7 +250,7 @@ SqpResult UavPlanner::solveGuideAlone() {
   along_active_.count = 0;
   mapped_.findCorridorAlongPath(check_.map, problem_);
   std::swap(problem_.bodies, no_bodies_);
-  const SqpResult alone = sqp_.solve(problem_, along_, along_active_);
+  const SqpResult alone = sqp_.solve(problem_, along_, along_active_, kMostLeadingQps);
   std::swap(problem_.bodies, no_bodies_);
   along_active_.count = 0;
   return alone;

@@ -14,6 +14,29 @@ using Row = ReferenceProgram::Row;
 constexpr int kInputs = ReferenceProgram::kInputs;
 constexpr double kInfinity = 1e20;  // as Ipopt has it
 
+/// Entries of a sparse matrix in the one order in which Ipopt asks for their places first, with no `values`, and for
+/// the values then.
+class Entries {
+ public:
+  Entries(Index* rows, Index* columns, Number* values) : rows_(rows), columns_(columns), values_(values) {}
+
+  void operator()(Index row, Index column, double value) {
+    if (values_ != nullptr) {
+      values_[place_] = value;
+    } else {
+      rows_[place_] = row;
+      columns_[place_] = column;
+    }
+    ++place_;
+  }
+
+ private:
+  Index* rows_;
+  Index* columns_;
+  Number* values_;
+  Index place_ = 0;
+};
+
 /// Every row has all jerks, its slack and its plane's point; the Hessian all pairs of jerks, of a plane's point with
 /// itself and with the jerks, and the slacks' diagonal.
 class Adapter : public Ipopt::TNLP {
@@ -71,16 +94,7 @@ class Adapter : public Ipopt::TNLP {
 
   bool eval_jac_g(Index n, const Number* z, bool, Index m, Index, Index* rows, Index* columns,
                   Number* values) override {
-    Index place = 0;
-    const auto set = [&](Index row, Index column, double value) {
-      if (values != nullptr) {
-        values[place] = value;
-      } else {
-        rows[place] = row;
-        columns[place] = column;
-      }
-      ++place;
-    };
+    Entries set(rows, columns, values);
     const Eigen::VectorXd x = values != nullptr ? at(z, n) : Eigen::VectorXd();
     for (Index i = 0; i < m; ++i) {
       const Row& row = program_.rows()[static_cast<std::size_t>(i)];
@@ -113,16 +127,7 @@ class Adapter : public Ipopt::TNLP {
           addRow(program_.rows()[static_cast<std::size_t>(i)], multipliers[i], x, inputs, mixed, points);
       }
     }
-    Index place = 0;
-    const auto set = [&](Index row, Index column, double value) {
-      if (values != nullptr) {
-        values[place] = value;
-      } else {
-        rows[place] = row;
-        columns[place] = column;
-      }
-      ++place;
-    };
+    Entries set(rows, columns, values);
     for (Index i = 0; i < kInputs; ++i) {
       for (Index j = 0; j <= i; ++j) set(i, j, inputs(i, j));
     }

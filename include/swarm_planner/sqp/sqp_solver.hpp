@@ -26,8 +26,8 @@ class SqpSolver {
   explicit SqpSolver(std::unique_ptr<QpSolver> qp_solver);
 
   /// Improves `plan`, which has to start at problem.start (a roll-out of any jerks). `active`: a guess of the first
-  /// QP's active rows, which may be empty; afterwards those of the last QP.
-  SqpResult solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active);
+  /// QP's active rows, which may be empty; afterwards those of the last QP. No more than `most` QPs are solved.
+  SqpResult solve(const UavProblem& problem, Trajectory& plan, ActiveRows& active, int most = kMostSqpIterations);
 
  private:
   /// Poses the QP at `plan`, with the cuts that the earlier answers of this run call for, and solves it.
