@@ -31,18 +31,12 @@ void requireRange(const VoxelIndex& low, const VoxelIndex& high) {
   }
 }
 
-/// Bits low to high - 1.
-std::uint32_t bits(int low, int high) {
-  const std::uint64_t below_high = (std::uint64_t{1} << high) - 1;
-  return static_cast<std::uint32_t>(below_high & ~((std::uint64_t{1} << low) - 1));
-}
-
 /// All occupied; one for all maps.
 const VoxelMap::ChunkPointer& fullChunk() {
   static const VoxelMap::ChunkPointer full = [] {
     const auto chunk = std::make_shared<VoxelChunk>();
     for (int z = 0; z < kSide; ++z) {
-      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bits(0, kSide));
+      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bitsBetween(0, kSide - 1));
     }
     return chunk;
   }();
@@ -56,12 +50,8 @@ Box boxOf(const VoxelChunk& chunk) {
     for (int y = 0; y < kSide; ++y) {
       const std::uint32_t row = chunk.row(y, z);
       if (row == 0) continue;
-      int first = 0;
-      while (((row >> first) & 1U) == 0) ++first;
-      int last = kSide - 1;
-      while (((row >> last) & 1U) == 0) --last;
-      box.include(Vector3(first, y, z));
-      box.include(Vector3(last + 1, y + 1, z + 1));
+      box.include(Vector3(lowestBit(row), y, z));
+      box.include(Vector3(highestBit(row) + 1, y + 1, z + 1));
     }
   }
   return box;
@@ -86,7 +76,7 @@ void VoxelMapBuilder::setBox(const VoxelIndex& low, const VoxelIndex& high) {
         const VoxelIndex corner = kSide * VoxelIndex(cx, cy, cz);
         const VoxelIndex from = (low - corner).cwiseMax(0);
         const VoxelIndex to = (high - corner).cwiseMin(kSide);
-        const std::uint32_t voxels = bits(from.x(), to.x());
+        const std::uint32_t voxels = bitsBetween(from.x(), to.x() - 1);
         for (int z = from.z(); z < to.z(); ++z) {
           for (int y = from.y(); y < to.y(); ++y) chunk->fillRow(y, z, voxels);
         }

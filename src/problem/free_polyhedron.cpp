@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // [m]
 constexpr double kMeets = 1e-6;     // nearer than this a segment meets a voxel [m]
-constexpr int kHalvings = 6;        // of a band that has too many voxels
+constexpr int kHalvings = 6;        // of a window that has too many voxels
 constexpr double kAsGood = 0.85;    // of the clearance, that a plane along the axes may have less
 
 Vector3 gaps(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0); }
@@ -47,19 +47,21 @@ PolyhedronSearch::PolyhedronSearch() {
   voxels_.reserve(kMostVoxels);
 }
 
-void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, double band,
+void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, const Box& window,
                             FreePolyhedron& polyhedron) {
   polyhedron_ = &polyhedron;
   segment_ = segment;
   resolution_ = map.resolution();
   hull_ = Box();
   for (const Vector3& point : segment) hull_.include(point);
-  for (int halving = 0; halving < kHalvings; ++halving, band *= 0.5) {
-    polyhedron.window = {hull_.min - Vector3::Constant(band), hull_.max + Vector3::Constant(band)};
+  polyhedron.window = window;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    Box& own = polyhedron.window;
     polyhedron.count = 0;
-    polyhedron.clearance = band;
+    polyhedron.clearance = std::min((hull_.min - own.min).minCoeff(), (own.max - hull_.max).minCoeff());
     addBounds(map);
     if (gatherBlocks(map) && separate()) return;
+    own = {0.5 * (own.min + hull_.min), 0.5 * (own.max + hull_.max)};
   }
   polyhedron.clearance = 0.0;
 }
@@ -83,11 +85,11 @@ void PolyhedronSearch::addBounds(const VoxelMap& map) {
 
 bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
   blocks_.clear();
-  const VoxelIndex first = map.voxelAt(polyhedron_->window.min);
-  const VoxelIndex last = map.voxelAt(polyhedron_->window.max);
-  for (int z = first.z() >> 5; z <= last.z() >> 5; ++z) {
-    for (int y = first.y() >> 5; y <= last.y() >> 5; ++y) {
-      for (int x = first.x() >> 5; x <= last.x() >> 5; ++x) {
+  first_ = map.voxelAt(polyhedron_->window.min);
+  last_ = map.voxelAt(polyhedron_->window.max);
+  for (int z = first_.z() >> 5; z <= last_.z() >> 5; ++z) {
+    for (int y = first_.y() >> 5; y <= last_.y() >> 5; ++y) {
+      for (int x = first_.x() >> 5; x <= last_.x() >> 5; ++x) {
         const VoxelChunk* chunk = map.chunk({x, y, z});
         if (chunk != nullptr) gatherBlocks(*chunk, VoxelChunk::kSide * VoxelIndex(x, y, z));
         if (blocks_.size() == kMostBlocks) return false;
@@ -103,47 +105,71 @@ bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
 }
 
 void PolyhedronSearch::gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner) {
-  for (int i = 0; i < VoxelChunk::kBlocks * VoxelChunk::kBlocks * VoxelChunk::kBlocks; ++i) {
-    const VoxelChunk::Range& range = chunk.block(i % 4, i / 4 % 4, i / 16);
-    if (range.isEmpty()) continue;
-    Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      box.min[axis] = resolution_ * (corner[axis] + range.first[a]);
-      box.max[axis] = resolution_ * (corner[axis] + range.last[a] + 1);
+  const VoxelIndex first = (first_ - corner).cwiseMax(0) / VoxelChunk::kBlock;
+  const VoxelIndex last = (last_ - corner).cwiseMin(VoxelChunk::kSide - 1) / VoxelChunk::kBlock;
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const VoxelChunk::Range& range = chunk.block(x, y, z);
+        if (range.isEmpty()) continue;
+        Box box;
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<std::size_t>(axis);
+          box.min[axis] = resolution_ * (corner[axis] + range.first[a]);
+          box.max[axis] = resolution_ * (corner[axis] + range.last[a] + 1);
+        }
+        if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
+        if (blocks_.size() == kMostBlocks) return;
+        blocks_.push_back({gaps(box, hull_).norm(), box, &chunk, &range, corner});
+      }
     }
-    if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
-    if (blocks_.size() == kMostBlocks) return;
-    blocks_.push_back({gaps(box, hull_).norm(), box, &chunk, &range, corner});
   }
 }
 
 bool PolyhedronSearch::expand(const Block& block) {
   if (isBehindAny(middleOf(block.box), halfOf(block.box))) return true;
   const Vector3 half = Vector3::Constant(0.5 * resolution_);
-  const VoxelChunk::Range& range = *block.range;
-  for (int z = range.first[2]; z <= range.last[2]; ++z) {
-    for (int y = range.first[1]; y <= range.last[1]; ++y) {
-      const std::uint32_t row = block.chunk->surface(y, z);
-      if (row == 0) continue;
-      Box row_box = block.box;
-      row_box.min.tail<2>() = resolution_ * (block.corner + VoxelIndex(0, y, z)).tail<2>().cast<double>();
-      row_box.max.tail<2>() = row_box.min.tail<2>() + 2.0 * half.tail<2>();
-      if (isBehindAny(middleOf(row_box), halfOf(row_box))) continue;
-      for (int x = range.first[0]; x <= range.last[0]; ++x) {
-        if (((row >> x) & 1U) == 0) continue;
-        Voxel voxel;
-        voxel.index = block.corner + VoxelIndex(x, y, z);
-        voxel.middle = resolution_ * voxel.index.cast<double>() + half;
-        if (!polyhedron_->window.near({voxel.middle, voxel.middle}, half.x())) continue;
-        if (isBehindAny(voxel.middle, half)) continue;
+  VoxelIndex first;
+  VoxelIndex last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    first[axis] = std::max<int>(block.range->first[a], first_[axis] - block.corner[axis]);
+    last[axis] = std::min<int>(block.range->last[a], last_[axis] - block.corner[axis]);
+  }
+  const std::uint32_t within = bitsBetween(first.x(), last.x());
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const std::uint32_t surface = block.chunk->surface(y, z) & within;
+      std::uint32_t row = inFront(surface, block.corner + VoxelIndex(0, y, z));
+      for (; row != 0; row &= row - 1) {
         if (voxels_.size() == kMostVoxels) return false;
+        Voxel voxel;
+        voxel.index = block.corner + VoxelIndex(lowestBit(row), y, z);
+        voxel.middle = resolution_ * voxel.index.cast<double>() + half;
         voxel.distance = (voxel.middle - nearestOnChord(segment_, voxel.middle)).norm();
         voxels_.push_back(voxel);
       }
     }
   }
   return true;
+}
+
+std::uint32_t PolyhedronSearch::inFront(std::uint32_t row, const VoxelIndex& corner) const {
+  const Vector3 half = Vector3::Constant(0.5 * resolution_);
+  const Vector3 middle = resolution_ * corner.cast<double>() + half;
+  for (std::size_t i = 0; i < polyhedron_->count && row != 0; ++i) {
+    // How far voxel x reaches in front of the plane: from + x * step.
+    const FreePlane& plane = polyhedron_->planes[i];
+    const double from = plane.n.dot(middle) + plane.n.cwiseAbs().dot(half) - plane.offset - kRounding;
+    const double step = resolution_ * plane.n.x();
+    const double to = from + 31.0 * step;
+    if (from > 0.0 && to > 0.0) continue;
+    if (from <= 0.0 && to <= 0.0) return 0;
+    // The planes cross the row: -from / step lies from 0 to 31.
+    const auto last_before = static_cast<int>(std::floor(-from / step));
+    row &= step > 0.0 ? bitsBetween(last_before + 1, 31) : bitsBetween(0, last_before);
+  }
+  return row;
 }
 
 bool PolyhedronSearch::separate() {
@@ -229,7 +255,9 @@ void PolyhedronSearch::shrinkWindow(std::size_t next_block) {
     if (isBehindAny(middleOf(blocks_[i].box), halfOf(blocks_[i].box))) continue;
     room = std::min(room, gaps(blocks_[i].box, hull_).maxCoeff());
   }
-  polyhedron_->window = {hull_.min - Vector3::Constant(room), hull_.max + Vector3::Constant(room)};
+  Box& window = polyhedron_->window;
+  window.min = window.min.cwiseMax(hull_.min - Vector3::Constant(room));
+  window.max = window.max.cwiseMin(hull_.max + Vector3::Constant(room));
 }
 
 }  // namespace swarm_planner

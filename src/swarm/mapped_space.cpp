@@ -12,8 +12,9 @@ constexpr double kLooked = 0.5;  // beyond uav_radius, for a clearance that is r
 
 }  // namespace
 
-void MappedSpace::findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem) {
-  builder_.buildAbout(requestFor(map, problem), plan, problem);
+void MappedSpace::findCorridor(const VoxelMap* map, const Trajectory& plan, CorridorMemory& memory,
+                               UavProblem& problem) {
+  builder_.buildAbout(requestFor(map, problem), plan, memory, problem);
 }
 
 void MappedSpace::findCorridorAlongPath(const VoxelMap* map, UavProblem& problem) {

@@ -145,6 +145,26 @@ TEST(VoxelMap, SuccessiveMapsShareTheChunksThatAreEqual) {
   }
 }
 
+TEST(VoxelMap, FingerprintsTellWhetherAPlaceHasChanged) {
+  Random random(5);
+  const Voxels voxels = randomVoxels(random, 500, 60);
+  const auto map = mapOf(voxels);
+  const Box box{Vector3(-1, -1, -1), Vector3(1, 1, 1)};
+  Voxels more = voxels;
+  more.insert({200, 0, 0});
+  EXPECT_EQ(mapOf(voxels)->fingerprint(box), map->fingerprint(box));
+  EXPECT_EQ(mapOf(more)->fingerprint(box), map->fingerprint(box));
+  more.insert({3, 3, 3});
+  EXPECT_NE(mapOf(more)->fingerprint(box), map->fingerprint(box));
+  VoxelMapBuilder bounded(kResolution);
+  for (const auto& [x, y, z] : voxels) bounded.set(x, y, z);
+  bounded.setOutsideOccupied({-100, -100, -100}, {100, 100, 100});
+  EXPECT_NE(bounded.build()->fingerprint(box), map->fingerprint(box));
+  // A voxel in another place of the same chunk, and in another chunk.
+  EXPECT_NE(mapOf({{0, 0, 0}})->fingerprint(box), mapOf({{0, 0, 1}})->fingerprint(box));
+  EXPECT_NE(mapOf({{0, 0, 0}})->fingerprint(box), mapOf({{-32, 0, 0}})->fingerprint(box));
+}
+
 TEST(VoxelMap, EmptyMapsAndStrangePointsAreHandled) {
   const auto empty = mapOf({});
   EXPECT_EQ(empty->occupiedCount(), 0U);

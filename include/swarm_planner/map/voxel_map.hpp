@@ -59,6 +59,10 @@ class VoxelMap {
   };
   Nearest findNearest(const Vector3& p, double limit) const;
 
+  /// Of what is occupied in the chunks that a box touches: the same in a map that is equal there, and as good as never
+  /// in another.
+  std::uint64_t fingerprint(const Box& box) const;
+
   /// Whether no occupied voxel has a point in common with a box.
   bool isEmpty(const Box& box) const;
 

@@ -34,9 +34,9 @@ class PolyhedronSearch {
  public:
   PolyhedronSearch();
 
-  /// About a segment, in a window that reaches `band` [m] beyond its control points; smaller where that has more
-  /// voxels than there is room for, or more planes.
-  void find(const VoxelMap& map, const SegmentPoints& segment, double band, FreePolyhedron& polyhedron);
+  /// About a segment, in a window [m] that holds its control points; in a smaller one where that has more voxels than
+  /// there is room for, or more planes.
+  void find(const VoxelMap& map, const SegmentPoints& segment, const Box& window, FreePolyhedron& polyhedron);
 
  private:
   static constexpr std::size_t kMostBlocks = 1024;
@@ -59,6 +59,8 @@ class PolyhedronSearch {
   void gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner);
   /// Adds the block's voxels that are not behind a plane. False if there is no room.
   bool expand(const Block& block);
+  /// Of the voxels of a row of a chunk from `corner` on, y and z being that of the row, those in front of all planes.
+  std::uint32_t inFront(std::uint32_t row, const VoxelIndex& corner) const;
   /// Looks for all planes. False if there is no room for voxels.
   bool separate();
   /// Adds the plane between the segment and a voxel; false if the segment meets the voxel.
@@ -71,7 +73,9 @@ class PolyhedronSearch {
 
   FreePolyhedron* polyhedron_ = nullptr;
   SegmentPoints segment_;
-  Box hull_;  ///< of the segment [m]
+  Box hull_;          ///< of the segment [m]
+  VoxelIndex first_;  ///< voxels of the window, each included
+  VoxelIndex last_;
   double resolution_ = 1.0;
   std::vector<Block> blocks_;
   std::vector<Voxel> voxels_;

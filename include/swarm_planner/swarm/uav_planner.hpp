@@ -90,7 +90,7 @@ class UavPlanner {
   /// To `along_`, without anything to keep clear of.
   SqpResult solveGuideAlone();
   /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
-  void solveAlongGuide(ActiveRows& active, SqpResult& result);
+  void solveAlongGuide(UavRecord& record, SqpResult& result);
   /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.
   void keepJerkLimit(const KinematicState& start);
   CheckVerdict judge(std::size_t uav, const Surroundings& surroundings, const Trajectory& plan);
