@@ -20,14 +20,6 @@ Vector3 gaps(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min
 Vector3 middleOf(const Box& box) { return 0.5 * (box.min + box.max); }
 Vector3 halfOf(const Box& box) { return 0.5 * (box.max - box.min); }
 
-/// The point of the chord that is nearest to `p`.
-Vector3 nearestOnChord(const SegmentPoints& segment, const Vector3& p) {
-  const Vector3 chord = segment[3] - segment[0];
-  const double squared = chord.squaredNorm();
-  if (!(squared > 0.0)) return segment[0];
-  return segment[0] + std::clamp((p - segment[0]).dot(chord) / squared, 0.0, 1.0) * chord;
-}
-
 double leastClearance(const FreePlane& plane, const SegmentPoints& segment) {
   double least = std::numeric_limits<double>::infinity();
   for (const Vector3& point : segment) least = std::min(least, plane.n.dot(point) - plane.offset);
@@ -51,6 +43,9 @@ void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, c
                             FreePolyhedron& polyhedron) {
   polyhedron_ = &polyhedron;
   segment_ = segment;
+  chord_ = segment[3] - segment[0];
+  const double squared_length = chord_.squaredNorm();
+  along_ = squared_length > 0.0 ? Vector3(chord_ / squared_length) : Vector3(Vector3::Zero());
   resolution_ = map.resolution();
   hull_ = Box();
   for (const Vector3& point : segment) hull_.include(point);
@@ -64,6 +59,10 @@ void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, c
     own = {0.5 * (own.min + hull_.min), 0.5 * (own.max + hull_.max)};
   }
   polyhedron.clearance = 0.0;
+}
+
+Vector3 PolyhedronSearch::nearestOnChord(const Vector3& p) const {
+  return segment_[0] + std::clamp((p - segment_[0]).dot(along_), 0.0, 1.0) * chord_;
 }
 
 void PolyhedronSearch::addBounds(const VoxelMap& map) {
@@ -97,7 +96,7 @@ bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
     }
   }
   std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
-    if (a.gap != b.gap) return a.gap < b.gap;
+    if (a.squared_gap != b.squared_gap) return a.squared_gap < b.squared_gap;
     if (a.box.min.x() != b.box.min.x()) return a.box.min.x() < b.box.min.x();
     return a.box.min.y() != b.box.min.y() ? a.box.min.y() < b.box.min.y() : a.box.min.z() < b.box.min.z();
   });
@@ -120,7 +119,7 @@ void PolyhedronSearch::gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& c
         }
         if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
         if (blocks_.size() == kMostBlocks) return;
-        blocks_.push_back({gaps(box, hull_).norm(), box, &chunk, &range, corner});
+        blocks_.push_back({gaps(box, hull_).squaredNorm(), box, &chunk, &range, corner});
       }
     }
   }
@@ -146,7 +145,7 @@ bool PolyhedronSearch::expand(const Block& block) {
         Voxel voxel;
         voxel.index = block.corner + VoxelIndex(lowestBit(row), y, z);
         voxel.middle = resolution_ * voxel.index.cast<double>() + half;
-        voxel.distance = (voxel.middle - nearestOnChord(segment_, voxel.middle)).norm();
+        voxel.squared_distance = (voxel.middle - nearestOnChord(voxel.middle)).squaredNorm();
         voxels_.push_back(voxel);
       }
     }
@@ -179,11 +178,11 @@ bool PolyhedronSearch::separate() {
   std::size_t nearest = 0;
   const auto findNearest = [this, &nearest](std::size_t first) {
     for (std::size_t i = first; i < voxels_.size(); ++i) {
-      if (voxels_[i].distance < voxels_[nearest].distance) nearest = i;
+      if (voxels_[i].squared_distance < voxels_[nearest].squared_distance) nearest = i;
     }
   };
   for (;;) {
-    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].gap <= voxels_[nearest].distance)) {
+    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].squared_gap <= voxels_[nearest].squared_distance)) {
       const std::size_t known = voxels_.size();
       if (!expand(blocks_[next++])) return false;
       findNearest(known);
@@ -206,7 +205,7 @@ bool PolyhedronSearch::separate() {
 
 bool PolyhedronSearch::addPlane(const Voxel& voxel) {
   const Vector3 half = Vector3::Constant(0.5 * resolution_);
-  const Vector3 seen_from = nearestOnChord(segment_, voxel.middle);
+  const Vector3 seen_from = nearestOnChord(voxel.middle);
   const Vector3 corner = seen_from.cwiseMax(voxel.middle - half).cwiseMin(voxel.middle + half);
   SegmentPoints relative;
   for (std::size_t i = 0; i < relative.size(); ++i) relative[i] = segment_[i] - corner;

@@ -43,18 +43,20 @@ class PolyhedronSearch {
   static constexpr std::size_t kMostVoxels = 4096;
 
   struct Block {
-    double gap = 0.0;  ///< to the box about the segment [m]
-    Box box;           ///< of its voxels [m]
+    double squared_gap = 0.0;  ///< to the box about the segment [m^2]
+    Box box;                   ///< of its voxels [m]
     const VoxelChunk* chunk = nullptr;
     const VoxelChunk::Range* range = nullptr;
     VoxelIndex corner;  ///< of the chunk, in voxels
   };
   struct Voxel {
-    double distance = 0.0;  ///< of its middle from the segment's chord [m]
-    Vector3 middle;         ///< [m]
+    double squared_distance = 0.0;  ///< of its middle from the segment's chord [m^2]
+    Vector3 middle;                 ///< [m]
     VoxelIndex index;
   };
 
+  /// The point of the segment's chord that is nearest to `p`.
+  Vector3 nearestOnChord(const Vector3& p) const;
   bool gatherBlocks(const VoxelMap& map);
   void gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner);
   /// Adds the block's voxels that are not behind a plane. False if there is no room.
@@ -73,6 +75,8 @@ class PolyhedronSearch {
 
   FreePolyhedron* polyhedron_ = nullptr;
   SegmentPoints segment_;
+  Vector3 chord_;     ///< of the segment [m]
+  Vector3 along_;     ///< chord_ over its squared length [1/m]
   Box hull_;          ///< of the segment [m]
   VoxelIndex first_;  ///< voxels of the window, each included
   VoxelIndex last_;

@@ -43,7 +43,7 @@ struct CorridorRequest {
 /// memory.
 struct CorridorMemory {
   /// Of more the first ones are kept, and the others looked for again.
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kMost = 12;
   struct Part {
     FreePolyhedron polyhedron;
     SegmentPoints segment;          ///< that it was found about
