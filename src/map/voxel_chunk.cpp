@@ -30,14 +30,23 @@ void VoxelChunk::fillRow(int y, int z, std::uint32_t voxels) {
     if (part == 0) continue;
     const int first = lowestBit(part);
     const int last = highestBit(part);
-    Range& range = blocks_[blockIndex(x, y / kBlock, z / kBlock)];
-    const std::array<int, 3> low{first, y, z};
-    const std::array<int, 3> high{last, y, z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      range.first[axis] = static_cast<std::uint8_t>(std::min<int>(range.first[axis], low[axis]));
-      range.last[axis] = static_cast<std::uint8_t>(std::max<int>(range.last[axis], high[axis]));
-    }
+    const auto byte = [](int i) { return static_cast<std::uint8_t>(i); };
+    blocks_[blockIndex(x, y / kBlock, z / kBlock)].include(
+        {{byte(first), byte(y), byte(z)}, {byte(last), byte(y), byte(z)}});
   }
+}
+
+void VoxelChunk::Range::include(const Range& other) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = std::min(first[axis], other.first[axis]);
+    last[axis] = std::max(last[axis], other.last[axis]);
+  }
+}
+
+VoxelChunk::Range VoxelChunk::range() const {
+  Range all;
+  for (const Range& block : blocks_) all.include(block);
+  return all;
 }
 
 std::uint32_t VoxelChunk::surface(int y, int z) const {

@@ -133,6 +133,31 @@ const VoxelChunk* VoxelMap::chunk(const VoxelIndex& index) const {
   return nullptr;
 }
 
+const VoxelMap::ChunkPointer& VoxelMap::fullChunk() {
+  static const ChunkPointer full = [] {
+    const auto chunk = std::make_shared<VoxelChunk>();
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bitsBetween(0, kSide - 1));
+    }
+    return chunk;
+  }();
+  return full;
+}
+
+void VoxelMap::finish() {
+  occupied_count_ = 0;
+  Box all;
+  for (const Entry& entry : chunks_) {
+    occupied_count_ += static_cast<std::size_t>(entry.chunk->occupiedCount());
+    const VoxelChunk::Range range = entry.chunk->range();
+    const VoxelIndex corner = kSide * entry.index;
+    all.include(boxOf(corner + VoxelIndex(range.first[0], range.first[1], range.first[2])).min);
+    all.include(boxOf(corner + VoxelIndex(range.last[0], range.last[1], range.last[2])).max);
+  }
+  if (!outside_is_occupied_) bounds_ = all;
+  buildTable();
+}
+
 void VoxelMap::buildTable() {
   std::size_t size = 16;
   while (size < 2 * chunks_.size()) size *= 2;

@@ -31,32 +31,6 @@ void requireRange(const VoxelIndex& low, const VoxelIndex& high) {
   }
 }
 
-/// All occupied; one for all maps.
-const VoxelMap::ChunkPointer& fullChunk() {
-  static const VoxelMap::ChunkPointer full = [] {
-    const auto chunk = std::make_shared<VoxelChunk>();
-    for (int z = 0; z < kSide; ++z) {
-      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bitsBetween(0, kSide - 1));
-    }
-    return chunk;
-  }();
-  return full;
-}
-
-/// Tight about the occupied voxels of a chunk, in voxels.
-Box boxOf(const VoxelChunk& chunk) {
-  Box box;
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      const std::uint32_t row = chunk.row(y, z);
-      if (row == 0) continue;
-      box.include(Vector3(lowestBit(row), y, z));
-      box.include(Vector3(highestBit(row) + 1, y + 1, z + 1));
-    }
-  }
-  return box;
-}
-
 }  // namespace
 
 VoxelMapBuilder::VoxelMapBuilder(double resolution) : resolution_(resolution) {
@@ -100,8 +74,7 @@ std::shared_ptr<const VoxelMap> VoxelMapBuilder::build(const VoxelMap* previous)
   map->chunks_.reserve(chunks_.size());
   for (auto& [key, chunk] : chunks_) {
     const VoxelIndex index = chunkOfKey(key);
-    map->occupied_count_ += static_cast<std::size_t>(chunk->occupiedCount());
-    map->chunks_.push_back({index, chunk->isFull() ? fullChunk() : VoxelMap::ChunkPointer(std::move(chunk))});
+    map->chunks_.push_back({index, chunk->isFull() ? VoxelMap::fullChunk() : VoxelMap::ChunkPointer(std::move(chunk))});
   }
   std::sort(map->chunks_.begin(), map->chunks_.end(), [](const VoxelMap::Entry& a, const VoxelMap::Entry& b) {
     return std::make_tuple(a.index.z(), a.index.y(), a.index.x()) <
@@ -119,16 +92,10 @@ std::shared_ptr<const VoxelMap> VoxelMapBuilder::build(const VoxelMap* previous)
       if (old->index == entry.index && *old->chunk == *entry.chunk) entry.chunk = old->chunk;
     }
   }
-  for (const VoxelMap::Entry& entry : map->chunks_) {
-    const Box box = boxOf(*entry.chunk);
-    const Vector3 corner = (kSide * entry.index).cast<double>();
-    map->bounds_.include(resolution_ * (corner + box.min));
-    map->bounds_.include(resolution_ * (corner + box.max));
-  }
   if (outside_is_occupied_) {
     map->bounds_ = {resolution_ * known_low_.cast<double>(), resolution_ * known_high_.cast<double>()};
   }
-  map->buildTable();
+  map->finish();
   *this = VoxelMapBuilder(resolution_);
   return map;
 }

@@ -31,7 +31,10 @@ class VoxelChunk {
     std::array<std::uint8_t, 3> last{};
 
     bool isEmpty() const { return first[0] > last[0]; }
+    void include(const Range& other);
   };
+  /// Tight about all occupied voxels.
+  Range range() const;
   const Range& block(int x, int y, int z) const { return blocks_[blockIndex(x, y, z)]; }
   /// Voxels of a row that have a neighbour across one of their faces in the chunk, or may have one beyond it, that is
   /// not occupied.

@@ -72,8 +72,13 @@ class VoxelMap {
 
  private:
   friend class VoxelMapBuilder;
+  friend class VoxelMapEditor;
 
   VoxelMap() = default;
+  /// All occupied; one for all maps.
+  static const ChunkPointer& fullChunk();
+  /// What follows from the chunks, which are in order; where outside_is_occupied_, bounds_ stays.
+  void finish();
   void buildTable();
   /// Those of `box` that bounds() has; empty (some min > max) if none.
   void clampedRange(const Box& box, VoxelIndex& first, VoxelIndex& last) const;
