@@ -34,14 +34,20 @@ double MapSpace::demandAt(const Vector3& p) const {
   return is_relieved_ ? std::min(wanted, has_ + kRecovery * (p - start_).norm()) : wanted;
 }
 
+bool MapSpace::hasEmptyBox(const Vector3& from, const Vector3& to) const {
+  const Vector3 wanted = Vector3::Constant(std::max(distance_ + comfort_, 0.0));
+  return map_->isEmpty({from.cwiseMin(to) - wanted, from.cwiseMax(to) + wanted});
+}
+
 double MapSpace::clearance(const Vector3& p) const {
   if (map_ == nullptr) return 0.0;
+  if (hasEmptyBox(p, p)) return 0.0;
   const double wanted = demandAt(p);
   return map_->distance(p, std::max(wanted, 0.0)) - wanted;
 }
 
 bool MapSpace::isClear(const Vector3& from, const Vector3& to) const {
-  if (map_ == nullptr) return true;
+  if (map_ == nullptr || hasEmptyBox(from, to)) return true;
   const double half = 0.5 * (to - from).norm();
   const Vector3 middle = 0.5 * (from + to);
   const double wanted = demandAt(middle);

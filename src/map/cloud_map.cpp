@@ -8,12 +8,15 @@
 #include <utility>
 
 #include "swarm_planner/map/octree_conversion.hpp"
+#include "swarm_planner/map/voxel_map_editor.hpp"
 
 namespace swarm_planner {
 namespace {
 
 // Half the width of every octree [voxels].
 constexpr double kHalfWidth = 32768.0;
+// The key of the first voxel beyond the origin along an axis.
+constexpr int kMiddle = 32768;
 
 octomap::point3d toPoint(const Vector3& p) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
@@ -36,9 +39,11 @@ struct CloudMap::Tree {
   octomap::OcTree octree;
 };
 
-CloudMap::CloudMap(double resolution) : tree_(new Tree{octomap::OcTree(resolution)}) {}
+CloudMap::CloudMap(double resolution) : tree_(new Tree{octomap::OcTree(resolution)}) {
+  tree_->octree.enableChangeDetection(true);
+}
 
-CloudMap::CloudMap(const OctreeData& start) : CloudMap(start.resolution) {
+CloudMap::CloudMap(const OctreeData& start, std::shared_ptr<const VoxelMap> present) : CloudMap(start.resolution) {
   std::string why;
   if (!visitOctree(
           start, [](const OctreeCube&) {}, why)) {
@@ -52,6 +57,7 @@ CloudMap::CloudMap(const OctreeData& start) : CloudMap(start.resolution) {
   } else {
     tree_->octree.readData(stream);
   }
+  last_ = std::move(present);
 }
 
 CloudMap::~CloudMap() = default;
@@ -80,8 +86,36 @@ std::size_t CloudMap::insert(const std::vector<Vector3>& points, const Vector3& 
   return cloud.size();
 }
 
-std::shared_ptr<const VoxelMap> CloudMap::voxels(bool unknown_is_occupied, const VoxelMap* previous,
-                                                 std::string& why) const {
+std::shared_ptr<const VoxelMap> CloudMap::voxels(bool unknown_is_occupied, const VoxelMap* previous, std::string& why) {
+  std::shared_ptr<const VoxelMap> map;
+  if (last_ != nullptr && last_->outsideIsOccupied() == unknown_is_occupied) map = convertChanges();
+  if (map == nullptr) map = convertAll(unknown_is_occupied, previous, why);
+  if (map == nullptr) return nullptr;
+  tree_->octree.resetChangeDetection();
+  last_ = map;
+  return map;
+}
+
+std::shared_ptr<const VoxelMap> CloudMap::convertChanges() const {
+  const octomap::OcTree& tree = tree_->octree;
+  VoxelMapEditor editor(last_);
+  const VoxelIndex low = last_->voxelAt(last_->bounds().min + Vector3::Constant(0.5 * resolution()));
+  const VoxelIndex high = last_->voxelAt(last_->bounds().max - Vector3::Constant(0.5 * resolution()));
+  auto& octree = tree_->octree;  // OctoMap has no constant access to the keys
+  for (auto changed = octree.changedKeysBegin(); changed != octree.changedKeysEnd(); ++changed) {
+    const octomap::OcTreeKey& key = changed->first;
+    const VoxelIndex voxel = VoxelIndex(key[0], key[1], key[2]).array() - kMiddle;
+    const bool is_within = (voxel.array() >= low.array()).all() && (voxel.array() <= high.array()).all();
+    if (last_->outsideIsOccupied() && !is_within) return nullptr;
+    const octomap::OcTreeNode* node = tree.search(key);
+    editor.set(voxel, node != nullptr && tree.isNodeOccupied(node));
+  }
+  std::shared_ptr<const VoxelMap> map = editor.build();
+  return map->chunks().size() <= kMostMapChunks ? map : nullptr;
+}
+
+std::shared_ptr<const VoxelMap> CloudMap::convertAll(bool unknown_is_occupied, const VoxelMap* previous,
+                                                     std::string& why) const {
   OctreeData data;
   data.resolution = resolution();
   if (tree_->octree.size() > 0) {

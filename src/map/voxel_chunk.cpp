@@ -5,25 +5,48 @@
 #include <bitset>
 
 namespace swarm_planner {
+namespace {
+
+/// 0 for a row without voxels; the finaliser of SplitMix64 otherwise.
+std::uint64_t fingerprintOf(std::size_t index, std::uint32_t row) {
+  if (row == 0) return 0;
+  std::uint64_t mixed = (static_cast<std::uint64_t>(index) << 32U | row) + 0x9e3779b97f4a7c15U;
+  mixed = (mixed ^ (mixed >> 30U)) * 0xbf58476d1ce4e5b9U;
+  mixed = (mixed ^ (mixed >> 27U)) * 0x94d049bb133111ebU;
+  return mixed ^ (mixed >> 31U);
+}
+
+}  // namespace
 
 void VoxelChunk::fillRow(int y, int z, std::uint32_t voxels) {
   std::uint32_t& row = rows_[index(y, z)];
+  if ((voxels & ~row) == 0) return;
   count_ += static_cast<int>(std::bitset<kSide>(voxels & ~row).count());
+  fingerprint_ -= fingerprintOf(index(y, z), row);
   row |= voxels;
+  fingerprint_ += fingerprintOf(index(y, z), row);
   for (int x = 0; x < kBlocks; ++x) {
-    if (((voxels >> (kBlock * x)) & 0xffU) == 0) continue;
-    int first = kBlock * x;
-    while (((voxels >> first) & 1U) == 0) ++first;
-    int last = kBlock * (x + 1) - 1;
-    while (((voxels >> last) & 1U) == 0) --last;
-    Range& range = blocks_[blockIndex(x, y / kBlock, z / kBlock)];
-    const std::array<int, 3> low{first, y, z};
-    const std::array<int, 3> high{last, y, z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      range.first[axis] = static_cast<std::uint8_t>(std::min<int>(range.first[axis], low[axis]));
-      range.last[axis] = static_cast<std::uint8_t>(std::max<int>(range.last[axis], high[axis]));
-    }
+    const std::uint32_t part = voxels & bitsBetween(kBlock * x, kBlock * (x + 1) - 1);
+    if (part == 0) continue;
+    const int first = lowestBit(part);
+    const int last = highestBit(part);
+    const auto byte = [](int i) { return static_cast<std::uint8_t>(i); };
+    blocks_[blockIndex(x, y / kBlock, z / kBlock)].include(
+        {{byte(first), byte(y), byte(z)}, {byte(last), byte(y), byte(z)}});
   }
+}
+
+void VoxelChunk::Range::include(const Range& other) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    first[axis] = std::min(first[axis], other.first[axis]);
+    last[axis] = std::max(last[axis], other.last[axis]);
+  }
+}
+
+VoxelChunk::Range VoxelChunk::range() const {
+  Range all;
+  for (const Range& block : blocks_) all.include(block);
+  return all;
 }
 
 std::uint32_t VoxelChunk::surface(int y, int z) const {
@@ -35,8 +58,7 @@ std::uint32_t VoxelChunk::surface(int y, int z) const {
 }
 
 bool VoxelChunk::hasIn(const Eigen::Vector3i& first, const Eigen::Vector3i& last) const {
-  const std::uint64_t below = (std::uint64_t{1} << (last.x() + 1)) - 1;
-  const auto voxels = static_cast<std::uint32_t>(below & ~((std::uint64_t{1} << first.x()) - 1));
+  const std::uint32_t voxels = bitsBetween(first.x(), last.x());
   for (int z = first.z(); z <= last.z(); ++z) {
     for (int y = first.y(); y <= last.y(); ++y) {
       if ((row(y, z) & voxels) != 0) return true;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace swarm_planner {
 namespace {
@@ -17,6 +18,12 @@ std::size_t hashOf(const VoxelIndex& index) {
                      static_cast<std::uint64_t>(index.y()) * 0xc2b2ae3d27d4eb4fU ^
                      static_cast<std::uint64_t>(index.z()) * 0x165667b19e3779f9U;
   return static_cast<std::size_t>(mixed ^ (mixed >> 32U));
+}
+
+std::uint64_t bitsOf(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
 }
 
 /// Of a coordinate from [low, high] [same unit].
@@ -68,19 +75,27 @@ class NearestSearch {
   void lookInBlock(const VoxelChunk& chunk, const VoxelChunk::Range& range) {
     const int first_x = std::max<int>(range.first[0], first_.x());
     const int last_x = std::min<int>(range.last[0], last_.x());
-    for (int z = std::max<int>(range.first[2], first_.z()); z <= std::min<int>(range.last[2], last_.z()); ++z) {
+    const std::uint32_t within = bitsBetween(first_x, last_x);
+    // The voxels of a row up to the point and those from there on: of each part the one that is nearest to it counts.
+    const int own = static_cast<int>(std::clamp(std::floor(p_.x() - corner_.x()), -1.0, kSide - 1.0));
+    const std::uint32_t up_to_own = bitsBetween(0, own) & within;
+    const std::uint32_t beyond = ~bitsBetween(0, own) & within;
+    const int last_z = std::min<int>(range.last[2], last_.z());
+    const int last_y = std::min<int>(range.last[1], last_.y());
+    for (int z = std::max<int>(range.first[2], first_.z()); z <= last_z; ++z) {
       const double above = corner_.z() + z;
       const double dz = gapTo(p_.z(), above, above + 1.0);
       if (dz * dz >= best_) continue;
-      for (int y = std::max<int>(range.first[1], first_.y()); y <= std::min<int>(range.last[1], last_.y()); ++y) {
+      for (int y = std::max<int>(range.first[1], first_.y()); y <= last_y; ++y) {
         const std::uint32_t row = chunk.row(y, z);
-        if (row == 0) continue;
+        if ((row & within) == 0) continue;
         const double across = corner_.y() + y;
         const double dy = gapTo(p_.y(), across, across + 1.0);
-        if (dy * dy + dz * dz >= best_) continue;
-        for (int x = first_x; x <= last_x; ++x) {
-          if (((row >> x) & 1U) != 0) consider(Vector3(corner_.x() + x, across, above), dy * dy + dz * dz);
-        }
+        const double squared = dy * dy + dz * dz;
+        if (squared >= best_) continue;
+        const Vector3 first_voxel(corner_.x(), across, above);
+        if ((row & up_to_own) != 0) consider(first_voxel + highestBit(row & up_to_own) * Vector3::UnitX(), squared);
+        if ((row & beyond) != 0) consider(first_voxel + lowestBit(row & beyond) * Vector3::UnitX(), squared);
       }
     }
   }
@@ -116,6 +131,31 @@ const VoxelChunk* VoxelMap::chunk(const VoxelIndex& index) const {
     if (entry.index == index) return entry.chunk.get();
   }
   return nullptr;
+}
+
+const VoxelMap::ChunkPointer& VoxelMap::fullChunk() {
+  static const ChunkPointer full = [] {
+    const auto chunk = std::make_shared<VoxelChunk>();
+    for (int z = 0; z < kSide; ++z) {
+      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bitsBetween(0, kSide - 1));
+    }
+    return chunk;
+  }();
+  return full;
+}
+
+void VoxelMap::finish() {
+  occupied_count_ = 0;
+  Box all;
+  for (const Entry& entry : chunks_) {
+    occupied_count_ += static_cast<std::size_t>(entry.chunk->occupiedCount());
+    const VoxelChunk::Range range = entry.chunk->range();
+    const VoxelIndex corner = kSide * entry.index;
+    all.include(boxOf(corner + VoxelIndex(range.first[0], range.first[1], range.first[2])).min);
+    all.include(boxOf(corner + VoxelIndex(range.last[0], range.last[1], range.last[2])).max);
+  }
+  if (!outside_is_occupied_) bounds_ = all;
+  buildTable();
 }
 
 void VoxelMap::buildTable() {
@@ -202,6 +242,32 @@ VoxelMap::Nearest VoxelMap::findNearest(const Vector3& p, double limit) const {
   }
   if (search.squaredDistance() >= limit_in_voxels * limit_in_voxels) return nearest;
   return {resolution_ * std::sqrt(search.squaredDistance()), resolution_ * search.point()};
+}
+
+std::uint64_t VoxelMap::fingerprint(const Box& box) const {
+  std::uint64_t mixed = 0;
+  const auto add = [&mixed](std::uint64_t part) {
+    mixed = (mixed ^ part) * 0x9e3779b97f4a7c15U;
+    mixed ^= mixed >> 29U;
+  };
+  add(bitsOf(resolution_));
+  if (outside_is_occupied_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      add(bitsOf(bounds_.min[axis]));
+      add(bitsOf(bounds_.max[axis]));
+    }
+  }
+  const VoxelIndex first = voxelAt(box.min).unaryExpr([](int voxel) { return chunkOf(voxel); });
+  const VoxelIndex last = voxelAt(box.max).unaryExpr([](int voxel) { return chunkOf(voxel); });
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const VoxelChunk* part = chunk({x, y, z});
+        add(part == nullptr ? 0 : part->fingerprint());
+      }
+    }
+  }
+  return mixed;
 }
 
 bool VoxelMap::isEmpty(const Box& box) const {

@@ -31,42 +31,6 @@ void requireRange(const VoxelIndex& low, const VoxelIndex& high) {
   }
 }
 
-/// Bits low to high - 1.
-std::uint32_t bits(int low, int high) {
-  const std::uint64_t below_high = (std::uint64_t{1} << high) - 1;
-  return static_cast<std::uint32_t>(below_high & ~((std::uint64_t{1} << low) - 1));
-}
-
-/// All occupied; one for all maps.
-const VoxelMap::ChunkPointer& fullChunk() {
-  static const VoxelMap::ChunkPointer full = [] {
-    const auto chunk = std::make_shared<VoxelChunk>();
-    for (int z = 0; z < kSide; ++z) {
-      for (int y = 0; y < kSide; ++y) chunk->fillRow(y, z, bits(0, kSide));
-    }
-    return chunk;
-  }();
-  return full;
-}
-
-/// Tight about the occupied voxels of a chunk, in voxels.
-Box boxOf(const VoxelChunk& chunk) {
-  Box box;
-  for (int z = 0; z < kSide; ++z) {
-    for (int y = 0; y < kSide; ++y) {
-      const std::uint32_t row = chunk.row(y, z);
-      if (row == 0) continue;
-      int first = 0;
-      while (((row >> first) & 1U) == 0) ++first;
-      int last = kSide - 1;
-      while (((row >> last) & 1U) == 0) --last;
-      box.include(Vector3(first, y, z));
-      box.include(Vector3(last + 1, y + 1, z + 1));
-    }
-  }
-  return box;
-}
-
 }  // namespace
 
 VoxelMapBuilder::VoxelMapBuilder(double resolution) : resolution_(resolution) {
@@ -86,7 +50,7 @@ void VoxelMapBuilder::setBox(const VoxelIndex& low, const VoxelIndex& high) {
         const VoxelIndex corner = kSide * VoxelIndex(cx, cy, cz);
         const VoxelIndex from = (low - corner).cwiseMax(0);
         const VoxelIndex to = (high - corner).cwiseMin(kSide);
-        const std::uint32_t voxels = bits(from.x(), to.x());
+        const std::uint32_t voxels = bitsBetween(from.x(), to.x() - 1);
         for (int z = from.z(); z < to.z(); ++z) {
           for (int y = from.y(); y < to.y(); ++y) chunk->fillRow(y, z, voxels);
         }
@@ -110,8 +74,7 @@ std::shared_ptr<const VoxelMap> VoxelMapBuilder::build(const VoxelMap* previous)
   map->chunks_.reserve(chunks_.size());
   for (auto& [key, chunk] : chunks_) {
     const VoxelIndex index = chunkOfKey(key);
-    map->occupied_count_ += static_cast<std::size_t>(chunk->occupiedCount());
-    map->chunks_.push_back({index, chunk->isFull() ? fullChunk() : VoxelMap::ChunkPointer(std::move(chunk))});
+    map->chunks_.push_back({index, chunk->isFull() ? VoxelMap::fullChunk() : VoxelMap::ChunkPointer(std::move(chunk))});
   }
   std::sort(map->chunks_.begin(), map->chunks_.end(), [](const VoxelMap::Entry& a, const VoxelMap::Entry& b) {
     return std::make_tuple(a.index.z(), a.index.y(), a.index.x()) <
@@ -129,16 +92,10 @@ std::shared_ptr<const VoxelMap> VoxelMapBuilder::build(const VoxelMap* previous)
       if (old->index == entry.index && *old->chunk == *entry.chunk) entry.chunk = old->chunk;
     }
   }
-  for (const VoxelMap::Entry& entry : map->chunks_) {
-    const Box box = boxOf(*entry.chunk);
-    const Vector3 corner = (kSide * entry.index).cast<double>();
-    map->bounds_.include(resolution_ * (corner + box.min));
-    map->bounds_.include(resolution_ * (corner + box.max));
-  }
   if (outside_is_occupied_) {
     map->bounds_ = {resolution_ * known_low_.cast<double>(), resolution_ * known_high_.cast<double>()};
   }
-  map->buildTable();
+  map->finish();
   *this = VoxelMapBuilder(resolution_);
   return map;
 }

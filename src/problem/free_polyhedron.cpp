@@ -12,21 +12,13 @@ namespace {
 
 constexpr double kRounding = 1e-9;  // [m]
 constexpr double kMeets = 1e-6;     // nearer than this a segment meets a voxel [m]
-constexpr int kHalvings = 6;        // of a band that has too many voxels
+constexpr int kHalvings = 6;        // of a window that has too many voxels
 constexpr double kAsGood = 0.85;    // of the clearance, that a plane along the axes may have less
 
 Vector3 gaps(const Box& a, const Box& b) { return (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(0.0); }
 
 Vector3 middleOf(const Box& box) { return 0.5 * (box.min + box.max); }
 Vector3 halfOf(const Box& box) { return 0.5 * (box.max - box.min); }
-
-/// The point of the chord that is nearest to `p`.
-Vector3 nearestOnChord(const SegmentPoints& segment, const Vector3& p) {
-  const Vector3 chord = segment[3] - segment[0];
-  const double squared = chord.squaredNorm();
-  if (!(squared > 0.0)) return segment[0];
-  return segment[0] + std::clamp((p - segment[0]).dot(chord) / squared, 0.0, 1.0) * chord;
-}
 
 double leastClearance(const FreePlane& plane, const SegmentPoints& segment) {
   double least = std::numeric_limits<double>::infinity();
@@ -47,21 +39,30 @@ PolyhedronSearch::PolyhedronSearch() {
   voxels_.reserve(kMostVoxels);
 }
 
-void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, double band,
+void PolyhedronSearch::find(const VoxelMap& map, const SegmentPoints& segment, const Box& window,
                             FreePolyhedron& polyhedron) {
   polyhedron_ = &polyhedron;
   segment_ = segment;
+  chord_ = segment[3] - segment[0];
+  const double squared_length = chord_.squaredNorm();
+  along_ = squared_length > 0.0 ? Vector3(chord_ / squared_length) : Vector3(Vector3::Zero());
   resolution_ = map.resolution();
   hull_ = Box();
   for (const Vector3& point : segment) hull_.include(point);
-  for (int halving = 0; halving < kHalvings; ++halving, band *= 0.5) {
-    polyhedron.window = {hull_.min - Vector3::Constant(band), hull_.max + Vector3::Constant(band)};
+  polyhedron.window = window;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    Box& own = polyhedron.window;
     polyhedron.count = 0;
-    polyhedron.clearance = band;
+    polyhedron.clearance = std::min((hull_.min - own.min).minCoeff(), (own.max - hull_.max).minCoeff());
     addBounds(map);
     if (gatherBlocks(map) && separate()) return;
+    own = {0.5 * (own.min + hull_.min), 0.5 * (own.max + hull_.max)};
   }
   polyhedron.clearance = 0.0;
+}
+
+Vector3 PolyhedronSearch::nearestOnChord(const Vector3& p) const {
+  return segment_[0] + std::clamp((p - segment_[0]).dot(along_), 0.0, 1.0) * chord_;
 }
 
 void PolyhedronSearch::addBounds(const VoxelMap& map) {
@@ -83,11 +84,11 @@ void PolyhedronSearch::addBounds(const VoxelMap& map) {
 
 bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
   blocks_.clear();
-  const VoxelIndex first = map.voxelAt(polyhedron_->window.min);
-  const VoxelIndex last = map.voxelAt(polyhedron_->window.max);
-  for (int z = first.z() >> 5; z <= last.z() >> 5; ++z) {
-    for (int y = first.y() >> 5; y <= last.y() >> 5; ++y) {
-      for (int x = first.x() >> 5; x <= last.x() >> 5; ++x) {
+  first_ = map.voxelAt(polyhedron_->window.min);
+  last_ = map.voxelAt(polyhedron_->window.max);
+  for (int z = first_.z() >> 5; z <= last_.z() >> 5; ++z) {
+    for (int y = first_.y() >> 5; y <= last_.y() >> 5; ++y) {
+      for (int x = first_.x() >> 5; x <= last_.x() >> 5; ++x) {
         const VoxelChunk* chunk = map.chunk({x, y, z});
         if (chunk != nullptr) gatherBlocks(*chunk, VoxelChunk::kSide * VoxelIndex(x, y, z));
         if (blocks_.size() == kMostBlocks) return false;
@@ -95,7 +96,7 @@ bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
     }
   }
   std::sort(blocks_.begin(), blocks_.end(), [](const Block& a, const Block& b) {
-    if (a.gap != b.gap) return a.gap < b.gap;
+    if (a.squared_gap != b.squared_gap) return a.squared_gap < b.squared_gap;
     if (a.box.min.x() != b.box.min.x()) return a.box.min.x() < b.box.min.x();
     return a.box.min.y() != b.box.min.y() ? a.box.min.y() < b.box.min.y() : a.box.min.z() < b.box.min.z();
   });
@@ -103,47 +104,71 @@ bool PolyhedronSearch::gatherBlocks(const VoxelMap& map) {
 }
 
 void PolyhedronSearch::gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner) {
-  for (int i = 0; i < VoxelChunk::kBlocks * VoxelChunk::kBlocks * VoxelChunk::kBlocks; ++i) {
-    const VoxelChunk::Range& range = chunk.block(i % 4, i / 4 % 4, i / 16);
-    if (range.isEmpty()) continue;
-    Box box;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      box.min[axis] = resolution_ * (corner[axis] + range.first[a]);
-      box.max[axis] = resolution_ * (corner[axis] + range.last[a] + 1);
+  const VoxelIndex first = (first_ - corner).cwiseMax(0) / VoxelChunk::kBlock;
+  const VoxelIndex last = (last_ - corner).cwiseMin(VoxelChunk::kSide - 1) / VoxelChunk::kBlock;
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      for (int x = first.x(); x <= last.x(); ++x) {
+        const VoxelChunk::Range& range = chunk.block(x, y, z);
+        if (range.isEmpty()) continue;
+        Box box;
+        for (int axis = 0; axis < 3; ++axis) {
+          const auto a = static_cast<std::size_t>(axis);
+          box.min[axis] = resolution_ * (corner[axis] + range.first[a]);
+          box.max[axis] = resolution_ * (corner[axis] + range.last[a] + 1);
+        }
+        if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
+        if (blocks_.size() == kMostBlocks) return;
+        blocks_.push_back({gaps(box, hull_).squaredNorm(), box, &chunk, &range, corner});
+      }
     }
-    if (!box.near(polyhedron_->window, 0.0) || isBehindAny(middleOf(box), halfOf(box))) continue;
-    if (blocks_.size() == kMostBlocks) return;
-    blocks_.push_back({gaps(box, hull_).norm(), box, &chunk, &range, corner});
   }
 }
 
 bool PolyhedronSearch::expand(const Block& block) {
   if (isBehindAny(middleOf(block.box), halfOf(block.box))) return true;
   const Vector3 half = Vector3::Constant(0.5 * resolution_);
-  const VoxelChunk::Range& range = *block.range;
-  for (int z = range.first[2]; z <= range.last[2]; ++z) {
-    for (int y = range.first[1]; y <= range.last[1]; ++y) {
-      const std::uint32_t row = block.chunk->surface(y, z);
-      if (row == 0) continue;
-      Box row_box = block.box;
-      row_box.min.tail<2>() = resolution_ * (block.corner + VoxelIndex(0, y, z)).tail<2>().cast<double>();
-      row_box.max.tail<2>() = row_box.min.tail<2>() + 2.0 * half.tail<2>();
-      if (isBehindAny(middleOf(row_box), halfOf(row_box))) continue;
-      for (int x = range.first[0]; x <= range.last[0]; ++x) {
-        if (((row >> x) & 1U) == 0) continue;
-        Voxel voxel;
-        voxel.index = block.corner + VoxelIndex(x, y, z);
-        voxel.middle = resolution_ * voxel.index.cast<double>() + half;
-        if (!polyhedron_->window.near({voxel.middle, voxel.middle}, half.x())) continue;
-        if (isBehindAny(voxel.middle, half)) continue;
+  VoxelIndex first;
+  VoxelIndex last;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto a = static_cast<std::size_t>(axis);
+    first[axis] = std::max<int>(block.range->first[a], first_[axis] - block.corner[axis]);
+    last[axis] = std::min<int>(block.range->last[a], last_[axis] - block.corner[axis]);
+  }
+  const std::uint32_t within = bitsBetween(first.x(), last.x());
+  for (int z = first.z(); z <= last.z(); ++z) {
+    for (int y = first.y(); y <= last.y(); ++y) {
+      const std::uint32_t surface = block.chunk->surface(y, z) & within;
+      std::uint32_t row = inFront(surface, block.corner + VoxelIndex(0, y, z));
+      for (; row != 0; row &= row - 1) {
         if (voxels_.size() == kMostVoxels) return false;
-        voxel.distance = (voxel.middle - nearestOnChord(segment_, voxel.middle)).norm();
+        Voxel voxel;
+        voxel.index = block.corner + VoxelIndex(lowestBit(row), y, z);
+        voxel.middle = resolution_ * voxel.index.cast<double>() + half;
+        voxel.squared_distance = (voxel.middle - nearestOnChord(voxel.middle)).squaredNorm();
         voxels_.push_back(voxel);
       }
     }
   }
   return true;
+}
+
+std::uint32_t PolyhedronSearch::inFront(std::uint32_t row, const VoxelIndex& corner) const {
+  const Vector3 half = Vector3::Constant(0.5 * resolution_);
+  const Vector3 middle = resolution_ * corner.cast<double>() + half;
+  for (std::size_t i = 0; i < polyhedron_->count && row != 0; ++i) {
+    // How far voxel x reaches in front of the plane: from + x * step.
+    const FreePlane& plane = polyhedron_->planes[i];
+    const double from = plane.n.dot(middle) + plane.n.cwiseAbs().dot(half) - plane.offset - kRounding;
+    const double step = resolution_ * plane.n.x();
+    const double to = from + 31.0 * step;
+    if (from > 0.0 && to > 0.0) continue;
+    if (from <= 0.0 && to <= 0.0) return 0;
+    // The planes cross the row: -from / step lies from 0 to 31.
+    const auto last_before = static_cast<int>(std::floor(-from / step));
+    row &= step > 0.0 ? bitsBetween(last_before + 1, 31) : bitsBetween(0, last_before);
+  }
+  return row;
 }
 
 bool PolyhedronSearch::separate() {
@@ -153,11 +178,11 @@ bool PolyhedronSearch::separate() {
   std::size_t nearest = 0;
   const auto findNearest = [this, &nearest](std::size_t first) {
     for (std::size_t i = first; i < voxels_.size(); ++i) {
-      if (voxels_[i].distance < voxels_[nearest].distance) nearest = i;
+      if (voxels_[i].squared_distance < voxels_[nearest].squared_distance) nearest = i;
     }
   };
   for (;;) {
-    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].gap <= voxels_[nearest].distance)) {
+    if (next < blocks_.size() && (voxels_.empty() || blocks_[next].squared_gap <= voxels_[nearest].squared_distance)) {
       const std::size_t known = voxels_.size();
       if (!expand(blocks_[next++])) return false;
       findNearest(known);
@@ -180,7 +205,7 @@ bool PolyhedronSearch::separate() {
 
 bool PolyhedronSearch::addPlane(const Voxel& voxel) {
   const Vector3 half = Vector3::Constant(0.5 * resolution_);
-  const Vector3 seen_from = nearestOnChord(segment_, voxel.middle);
+  const Vector3 seen_from = nearestOnChord(voxel.middle);
   const Vector3 corner = seen_from.cwiseMax(voxel.middle - half).cwiseMin(voxel.middle + half);
   SegmentPoints relative;
   for (std::size_t i = 0; i < relative.size(); ++i) relative[i] = segment_[i] - corner;
@@ -229,7 +254,9 @@ void PolyhedronSearch::shrinkWindow(std::size_t next_block) {
     if (isBehindAny(middleOf(blocks_[i].box), halfOf(blocks_[i].box))) continue;
     room = std::min(room, gaps(blocks_[i].box, hull_).maxCoeff());
   }
-  polyhedron_->window = {hull_.min - Vector3::Constant(room), hull_.max + Vector3::Constant(room)};
+  Box& window = polyhedron_->window;
+  window.min = window.min.cwiseMax(hull_.min - Vector3::Constant(room));
+  window.max = window.max.cwiseMin(hull_.max + Vector3::Constant(room));
 }
 
 }  // namespace swarm_planner

@@ -73,7 +73,13 @@ std::vector<Vector3> edgesOf(const FreePolyhedron& polyhedron) {
 std::vector<Vector3> CorridorDrawing::edges(const VoxelMap& map, const CommittedMotion& plan, double band) {
   std::vector<Vector3> ends;
   for (int piece = 0; piece <= plan.pieces(); piece += kEvery) {
-    search_.find(map, plan.piece(piece), band, polyhedron_);
+    const SegmentPoints segment = plan.piece(piece);
+    Box window;
+    for (const Vector3& point : segment) {
+      window.include(point - Vector3::Constant(band));
+      window.include(point + Vector3::Constant(band));
+    }
+    search_.find(map, segment, window, polyhedron_);
     if (polyhedron_.clearance <= 0.0) continue;
     const std::vector<Vector3> more = edgesOf(polyhedron_);
     ends.insert(ends.end(), more.begin(), more.end());

@@ -12,11 +12,16 @@ InputStore::InputStore(std::size_t uavs, double track_timeout, std::size_t max_t
       track_timeout_(track_timeout),
       memory_(track_timeout, max_tracks, uavs),
       nearest_(uavs, max_tracks),
+      histories_(uavs),
       uavs_(uavs) {
   tracks_.reserve(max_tracks);
 }
 
 void InputStore::accept(std::size_t uav, const OdometrySample& sample) {
+  {
+    const std::lock_guard<std::mutex> lock(history_mutex_);
+    histories_[uav].add(sample.stamp, sample.p, sample.v);
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   UavInput& input = uavs_[uav];
   if (input.received && sample.stamp < input.sample.stamp) {
@@ -77,6 +82,10 @@ void InputStore::reject(InputFault fault, const std::string& why) {
 void InputStore::clear() {
   const std::lock_guard<std::mutex> memory_lock(memory_mutex_);
   memory_.reset();
+  {
+    const std::lock_guard<std::mutex> history_lock(history_mutex_);
+    for (PlaceHistory& history : histories_) history.clear();
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   for (UavInput& input : uavs_) {
     input.received = false;
@@ -110,6 +119,15 @@ void InputStore::fill(double now, Snapshot& snapshot) {
 std::vector<UavInput> InputStore::uavs() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return uavs_;
+}
+
+std::vector<Vector3> InputStore::placesAt(double t) const {
+  const std::lock_guard<std::mutex> lock(history_mutex_);
+  std::vector<Vector3> places;
+  for (const PlaceHistory& history : histories_) {
+    if (const std::optional<Vector3> place = history.at(t)) places.push_back(*place);
+  }
+  return places;
 }
 
 TrackInput InputStore::tracks() const {

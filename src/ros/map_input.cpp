@@ -40,12 +40,12 @@ OctreeData octreeOf(const VoxelMap& map) {
 
 }  // namespace
 
-MapInput::MapInput(const Mission& mission, const MapOptions& options, const FrameTransformer& frames,
-                   const InputStore& store, Listener listener)
+MapInput::MapInput(const Mission& mission, const MapOptions& options, const FrameTransformer& frames, Bodies bodies,
+                   Listener listener)
     : mission_(mission),
       options_(options),
       frames_(frames),
-      store_(store),
+      bodies_(std::move(bodies)),
       listener_(std::move(listener)),
       spinner_(1, &queue_) {
   if (mission.map != nullptr) takeUp(mission.map, mission.scenario.map_file, steadySeconds());
@@ -57,15 +57,19 @@ MapInput::MapInput(const Mission& mission, const MapOptions& options, const Fram
         [this, name](const OctomapMessage& message) { receiveOctomap(name, message); },
         [this, name](InputFault fault, const std::string& why) { reject(name, fault, why); }));
   }
+  if (bodies_) subscribeClouds();
+  listener_timer_ =
+      node_.createWallTimer(ros::WallDuration(kListenerPeriod), [this](const ros::WallTimerEvent&) { tellListener(); });
+  spinner_.start();
+}
+
+void MapInput::subscribeClouds() {
   subscribers_.push_back(subscribeGuarded<sensor_msgs::PointCloud2>(
       node_, kMapCloudTopic, {kMapCloudQueueSize, kMostMapMessageBytes},
       [this](const sensor_msgs::PointCloud2& message) { receiveCloud(message); },
       [this](InputFault fault, const std::string& why) { reject(kMapCloudTopic, fault, why); }));
-  cloud_timer_ = node_.createWallTimer(ros::WallDuration(options.cloud_period),
+  cloud_timer_ = node_.createWallTimer(ros::WallDuration(options_.cloud_period),
                                        [this](const ros::WallTimerEvent&) { convertClouds(); });
-  listener_timer_ =
-      node_.createWallTimer(ros::WallDuration(kListenerPeriod), [this](const ros::WallTimerEvent&) { tellListener(); });
-  spinner_.start();
 }
 
 MapInput::~MapInput() { spinner_.stop(); }
@@ -109,11 +113,8 @@ void MapInput::receiveCloud(const sensor_msgs::PointCloud2& message) {
   auto points = pointsOf(message, fault, why);
   if (!points) return reject(kMapCloudTopic, fault, why);
   for (Vector3& point : *points) point = *pose * point;
-  std::vector<Vector3> bodies;
-  for (const UavInput& uav : store_.uavs()) {
-    if (uav.received) bodies.push_back(uav.sample.p);
-  }
-  removeBodies(bodies, options_.body_radius, *points);
+  const ros::Time stamp = message.header.stamp.isZero() ? ros::Time::now() : message.header.stamp;
+  removeBodies(bodies_(toSeconds(stamp)), options_.body_radius, *points);
   if (points->empty()) return reject(kMapCloudTopic, InputFault::kNotFinite, "a cloud without any point to use");
   if (cloudMap().insert(*points, pose->translation(), options_.cloud_range) == 0) {
     return reject(kMapCloudTopic, InputFault::kAbsurd, "a sensor that is too far from the frame's origin");
@@ -126,12 +127,16 @@ CloudMap& MapInput::cloudMap() {
   std::string why;
   const std::shared_ptr<const VoxelMap> last = map();
   if (octree_) {
-    clouds_.emplace(*octree_);
+    clouds_.emplace(*octree_, last);
   } else if (last == nullptr) {
     clouds_.emplace(options_.resolution);
   } else if (last == mission_.map) {
     const auto file = readMapFile(mission_.scenario.map_file, why);
-    clouds_.emplace(file ? *file : octreeOf(*last));
+    if (file) {
+      clouds_.emplace(*file, last);
+    } else {
+      clouds_.emplace(octreeOf(*last));
+    }
   } else {
     clouds_.emplace(octreeOf(*last));
   }

@@ -68,8 +68,9 @@ PlannerNode::PlannerNode(SwarmPlanner planner, const Mission& mission, const Pla
       setpoint_repeats_(mission.parameters.input.setpoint_repeats),
       inputs_(names_, frame_, options, inputLimits(mission)),
       map_markers_(mission, frame_, options.map),
-      maps_(mission, options.map, inputs_.frames(), inputs_.store(),
-            [this](const VoxelMap& map) { map_markers_.show(map); }),
+      maps_(
+          mission, options.map, inputs_.frames(), [this](double t) { return inputs_.store().placesAt(t); },
+          [this](const VoxelMap& map) { map_markers_.show(map); }),
       outputs_(names_, frame_, options),
       diagnostics_(names_, cycle_period_, mission.parameters.input.track_timeout),
       markers_(mission, frame_, options, inputs_, maps_),

@@ -3,7 +3,6 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <tf2/buffer_core.h>
 
 #include <algorithm>
 #include <fstream>
@@ -45,6 +44,7 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
       options_(options),
       clock_(options.speed),
       faults_(mission, static_cast<std::uint64_t>(mission.parameters.simulation.seed)),
+      frames_(no_transforms_, mission_.scenario.frame_id, 0.0),
       samples_(mission.scenario.uavs.size()),
       watch_(node_),
       fault_service_(mission_, faults_, concernsVehicles, [this] { return time_; }) {
@@ -65,6 +65,9 @@ QuadSimNode::QuadSimNode(const Mission& mission, const QuadSimOptions& options)
     obstacles_.back().shape = makeObstacle(obstacle);
   }
   subscribe();
+  if (options_.live_map) {
+    live_map_.emplace(mission_, MapOptions(), frames_, MapInput::Bodies(), [](const VoxelMap&) {});
+  }
   // Steps are due by the clock that makes ROS time; a ROS timer would wait for itself there.
   if (clock_.makesRosTime()) {
     wall_timer_ = node_.createWallTimer(ros::WallDuration(kStep / options_.speed),
@@ -130,10 +133,7 @@ void QuadSimNode::deliverTrajectories(std::size_t uav) {
 }
 
 void QuadSimNode::receiveTracks(const ObstacleTrackArray& message) {
-  // The truth is given in the world's own frame: no tf needed.
-  const tf2::BufferCore no_transforms;
-  const FrameTransformer frames(no_transforms, mission_.scenario.frame_id, 0.0);
-  const TrackBatch batch = convertTracks(message, frames, toSeconds(message.header.stamp), kJump);
+  const TrackBatch batch = convertTracks(message, frames_, toSeconds(message.header.stamp), kJump);
   if (!batch.faults.empty()) watch_.refuse(kTracks, batch.dropped, batch.faults.front());
   for (const TrackedObstacle& track : batch.tracks) {
     const auto known = std::find_if(obstacles_.begin(), obstacles_.end(), [&track](const TrackedObstacle& obstacle) {
@@ -261,6 +261,7 @@ void QuadSimNode::observe() {
     obstacles_now_.push_back(obstacle.shape.movedBy(time_ - since));
   }
   const double run_time = time_ - *time_zero_;
+  if (live_map_) monitor_->setMap(live_map_->map());
   monitor_->observe(run_time, samples_, obstacles_now_);
   if (monitor_->ended()) {
     endRun(monitor_->summary().timed_out ? "timeout" : "scenario");

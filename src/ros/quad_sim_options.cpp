@@ -13,6 +13,7 @@ const std::vector<NodeParameter>& quadSimTable() {
       {"speed", "simulated over wall time; other than 1 needs use_sim_time", 1.0, false, 0.01, 100.0},
       {"duration", "ends the run after so long since t = 0 [s], 0: when the scenario does", 0.0, false, 0.0},
       {"summary_file", "where to write the summary as a line of JSON, empty: nowhere", std::string()},
+      {"live_map", "octomaps that come in flight are what UAVs may collide with, too", false},
       {"exit_at_end", "shut down when the run has ended", false},
   };
   return table;
@@ -28,6 +29,7 @@ QuadSimOptions takeQuadSimOptions(ParameterMap& given, Faults& faults) {
   options.speed = std::get<double>(values.at("speed"));
   options.duration = std::get<double>(values.at("duration"));
   options.summary_file = text("summary_file");
+  options.live_map = std::get<bool>(values.at("live_map"));
   options.exit_at_end = std::get<bool>(values.at("exit_at_end"));
   return options;
 }

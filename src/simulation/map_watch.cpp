@@ -18,8 +18,16 @@ constexpr double kFarthest = 1000.0;
 }  // namespace
 
 MapWatch::MapWatch(std::shared_ptr<const VoxelMap> map, double uav_radius)
-    : map_(std::move(map)), uav_radius_(uav_radius), min_clearance_(kInfinity) {
-  if (map_ != nullptr && map_->occupiedCount() == 0 && !map_->outsideIsOccupied()) map_.reset();
+    : uav_radius_(uav_radius), min_clearance_(kInfinity) {
+  setMap(std::move(map));
+}
+
+void MapWatch::setMap(std::shared_ptr<const VoxelMap> map) {
+  const bool has_any = map != nullptr && (map->occupiedCount() > 0 || map->outsideIsOccupied());
+  if (!has_any) map.reset();
+  if (map == map_) return;
+  map_ = std::move(map);
+  for (Uav& uav : uavs_) uav.slack = -1.0;
 }
 
 const std::vector<std::size_t>& MapWatch::observe(const std::vector<Vector3>& positions) {

@@ -31,6 +31,11 @@ RunMonitor::RunMonitor(const Mission& mission)
       flights_(mission.scenario.uavs.size(), mission.map),
       cost_(mission.parameters.cost) {}
 
+void RunMonitor::setMap(const std::shared_ptr<const VoxelMap>& map) {
+  map_.setMap(map);
+  flights_.setMap(map);
+}
+
 void RunMonitor::observe(double t, const std::vector<UavSample>& uavs, const std::vector<Superellipsoid>& obstacles) {
   if (uavs.size() != scenario_.uavs.size()) {
     throw std::invalid_argument("RunMonitor: the number of vehicles is not the scenario's");

@@ -8,6 +8,7 @@ namespace swarm_planner {
 namespace {
 
 constexpr double kStep = 0.05;  // [s]
+constexpr double kHit = 0.5;    // of the distance to keep from a map: who comes nearer has hit it
 
 double obstacleShortfall(const Vector3& p, double t, const PredictedObstacle& obstacle) {
   if (t > obstacle.valid_until) return 0.0;
@@ -28,19 +29,39 @@ double pairShortfall(const Vector3& p, double t, const OtherMotion& other, const
   return (1.0 - scaled.norm()) * std::min(horizontal, vertical);
 }
 
+/// By how much a motion falls short of the distance to keep from a map, moment by moment. Walls let nobody through: a
+/// motion that hits one stays in it, whatever it would do beyond. One that begins there may leave.
+class MapShortfall {
+ public:
+  explicit MapShortfall(const CheckSurroundings& surroundings) : surroundings_(surroundings) {}
+
+  double at(const Vector3& p) {
+    const double demanded = surroundings_.map_distance;
+    if (surroundings_.map == nullptr) return 0.0;
+    if (has_hit_) return demanded;
+    const double found = surroundings_.map->distance(p, demanded);
+    has_hit_ = was_free_ && found < kHit * demanded;
+    was_free_ = was_free_ || found >= kHit * demanded;
+    return has_hit_ ? demanded : demanded - found;
+  }
+
+ private:
+  const CheckSurroundings& surroundings_;
+  bool was_free_ = false;
+  bool has_hit_ = false;
+};
+
 }  // namespace
 
 double shortfall(const CommittedMotion& motion, double from, const CheckLimits& limits,
                  const CheckSurroundings& surroundings) {
   const auto steps = static_cast<int>(std::round(kShortfallTime / kStep));
   double sum = 0.0;
+  MapShortfall map(surroundings);
   for (int i = 0; i < steps; ++i) {
     const double t = from + (i + 0.5) * kStep;
     const Vector3 p = motion.at(t).p;
-    double worst = 0.0;
-    if (surroundings.map != nullptr) {
-      worst = surroundings.map_distance - surroundings.map->distance(p, surroundings.map_distance);
-    }
+    double worst = map.at(p);
     for (const PredictedObstacle& obstacle : surroundings.obstacles) {
       worst = std::max(worst, obstacleShortfall(p, t, obstacle));
     }

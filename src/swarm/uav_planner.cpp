@@ -188,7 +188,7 @@ CheckVerdict UavPlanner::propose(std::size_t uav, double epoch, UavRecord& recor
   startFromFlown(epoch, record);
   SqpResult result = sqp_.solve(problem_, plan_, record.active);
   if (!result.solved) plan_ = shifted_;
-  if (record.guide.needsFreshStart()) solveAlongGuide(record.active, result);
+  if (record.guide.needsFreshStart()) solveAlongGuide(record, result);
   keepJerkLimit(record.start);
   return decide(uav, record, surroundings, result, report);
 }
@@ -200,7 +200,7 @@ void UavPlanner::startFromFlown(double epoch, UavRecord& record) {
     coastingPlan(record.start, epoch, problem_.dt, shifted_);
   }
   plan_ = shifted_;
-  mapped_.findCorridor(check_.map, shifted_, problem_);
+  mapped_.findCorridor(check_.map, shifted_, record.corridor, problem_);
   guessActiveRows(epoch, record);
 }
 
@@ -256,17 +256,17 @@ SqpResult UavPlanner::solveGuideAlone() {
   return alone;
 }
 
-void UavPlanner::solveAlongGuide(ActiveRows& active, SqpResult& result) {
+void UavPlanner::solveAlongGuide(UavRecord& record, SqpResult& result) {
   const SqpResult alone = solveGuideAlone();
   SqpResult other = sqp_.solve(problem_, along_, along_active_);
   const int iterations = result.iterations + alone.iterations + other.iterations;
   const int qp_iterations = result.qp_iterations + alone.qp_iterations + other.qp_iterations;
   if (other.solved && (!result.solved || other.merit < result.merit)) {
     plan_ = along_;
-    active = along_active_;
+    record.active = along_active_;
     result = other;
   } else {
-    mapped_.findCorridor(check_.map, shifted_, problem_);
+    mapped_.findCorridor(check_.map, shifted_, record.corridor, problem_);
   }
   result.iterations = iterations;
   result.qp_iterations = qp_iterations;

@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "octree_files.hpp"
+#include "support/random.hpp"
 #include "swarm_planner/map/cloud_map.hpp"
+#include "swarm_planner/map/octree_conversion.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -65,6 +67,48 @@ TEST(CloudMap, BadPointsAreLeftOut) {
   const auto map = cloud.voxels(false, nullptr, why);
   ASSERT_NE(map, nullptr) << why;
   EXPECT_EQ(map->occupiedCount(), 1U);
+}
+
+/// That two maps are equal, chunk by chunk.
+void expectSame(const VoxelMap& map, const VoxelMap& other) {
+  ASSERT_EQ(map.occupiedCount(), other.occupiedCount());
+  ASSERT_EQ(map.chunks().size(), other.chunks().size());
+  EXPECT_TRUE(map.bounds().min.isApprox(other.bounds().min, 1e-9));
+  EXPECT_TRUE(map.bounds().max.isApprox(other.bounds().max, 1e-9));
+  for (std::size_t i = 0; i < map.chunks().size(); ++i) {
+    ASSERT_EQ(map.chunks()[i].index, other.chunks()[i].index);
+    ASSERT_TRUE(*map.chunks()[i].chunk == *other.chunks()[i].chunk);
+  }
+}
+
+TEST(CloudMap, ChangesGiveTheMapThatTheWholeTreeGives) {
+  for (const bool unknown_is_occupied : {false, true}) {
+    Random random(3);
+    const auto tree = randomTree(0.1, 6);
+    std::string why;
+    const OctreeData start = *parseMapFile(binaryFile(tree), why);
+    const auto present = toVoxelMap(start, unknown_is_occupied, nullptr, why);
+    CloudMap cloud(start, present);
+    CloudMap anew(start);
+    std::shared_ptr<const VoxelMap> last = present;
+    int shared = 0;
+    for (int i = 0; i < 15; ++i) {
+      const Vector3 sensor = random.vector(-3.0, 3.0);
+      std::vector<Vector3> points;
+      for (int n = 0; n < 200; ++n) points.push_back(sensor + random.uniform(0.3, 4.0) * random.direction());
+      cloud.insert(points, sensor, kRange);
+      anew.insert(points, sensor, kRange);
+      const auto map = cloud.voxels(unknown_is_occupied, nullptr, why);
+      ASSERT_NE(map, nullptr) << why;
+      // Asked for the other way between, it has no last map to start from.
+      ASSERT_NE(anew.voxels(!unknown_is_occupied, nullptr, why), nullptr);
+      expectSame(*map, *anew.voxels(unknown_is_occupied, nullptr, why));
+      for (const VoxelMap::Entry& entry : map->chunks())
+        shared += last->chunk(entry.index) == entry.chunk.get() ? 1 : 0;
+      last = map;
+    }
+    EXPECT_GT(shared, 0);
+  }
 }
 
 TEST(CloudMap, AnEmptyOneIsNoMap) {

@@ -9,6 +9,7 @@
 
 #include "support/random.hpp"
 #include "swarm_planner/map/voxel_map.hpp"
+#include "swarm_planner/map/voxel_map_editor.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -145,6 +146,54 @@ TEST(VoxelMap, SuccessiveMapsShareTheChunksThatAreEqual) {
   }
 }
 
+TEST(VoxelMap, EditedItIsAsMadeAnew) {
+  Random random(6);
+  Voxels voxels = randomVoxels(random, 2000, 60);
+  voxels.insert({300, 0, 0});
+  auto map = mapOf(voxels);
+  for (int round = 0; round < 20; ++round) {
+    VoxelMapEditor editor(map);
+    for (int i = 0; i < 50; ++i) {
+      const std::array<int, 3> v{random.integer(-70, 70), random.integer(-70, 70), random.integer(-70, 70)};
+      const bool occupied = random.integer(0, 1) == 1;
+      editor.set({v[0], v[1], v[2]}, occupied);
+      occupied ? static_cast<void>(voxels.insert(v)) : static_cast<void>(voxels.erase(v));
+    }
+    if (round == 10) {
+      editor.set({300, 0, 0}, false);
+      voxels.erase({300, 0, 0});
+    }
+    const auto before = map;
+    map = editor.build();
+    const auto anew = mapOf(voxels);
+    ASSERT_EQ(map->occupiedCount(), anew->occupiedCount());
+    ASSERT_EQ(map->chunks().size(), anew->chunks().size());
+    EXPECT_NEAR((map->bounds().max - anew->bounds().max).norm(), 0.0, 1e-9);
+    for (const VoxelMap::Entry& entry : anew->chunks()) ASSERT_TRUE(*map->chunk(entry.index) == *entry.chunk);
+    EXPECT_TRUE(round >= 10 || map->chunk({9, 0, 0}) == before->chunk({9, 0, 0})) << "what was not edited is shared";
+  }
+}
+
+TEST(VoxelMap, FingerprintsTellWhetherAPlaceHasChanged) {
+  Random random(5);
+  const Voxels voxels = randomVoxels(random, 500, 60);
+  const auto map = mapOf(voxels);
+  const Box box{Vector3(-1, -1, -1), Vector3(1, 1, 1)};
+  Voxels more = voxels;
+  more.insert({200, 0, 0});
+  EXPECT_EQ(mapOf(voxels)->fingerprint(box), map->fingerprint(box));
+  EXPECT_EQ(mapOf(more)->fingerprint(box), map->fingerprint(box));
+  more.insert({3, 3, 3});
+  EXPECT_NE(mapOf(more)->fingerprint(box), map->fingerprint(box));
+  VoxelMapBuilder bounded(kResolution);
+  for (const auto& [x, y, z] : voxels) bounded.set(x, y, z);
+  bounded.setOutsideOccupied({-100, -100, -100}, {100, 100, 100});
+  EXPECT_NE(bounded.build()->fingerprint(box), map->fingerprint(box));
+  // A voxel in another place of the same chunk, and in another chunk.
+  EXPECT_NE(mapOf({{0, 0, 0}})->fingerprint(box), mapOf({{0, 0, 1}})->fingerprint(box));
+  EXPECT_NE(mapOf({{0, 0, 0}})->fingerprint(box), mapOf({{-32, 0, 0}})->fingerprint(box));
+}
+
 TEST(VoxelMap, EmptyMapsAndStrangePointsAreHandled) {
   const auto empty = mapOf({});
   EXPECT_EQ(empty->occupiedCount(), 0U);
@@ -165,6 +214,7 @@ TEST(VoxelMap, WhatCannotBeAMapIsRefused) {
   }
   VoxelMapBuilder builder(kResolution);
   EXPECT_THROW(builder.set(kFarthestVoxel, 0, 0), std::out_of_range);
+  EXPECT_THROW(VoxelMapEditor(builder.build()).set({kFarthestVoxel, 0, 0}, true), std::out_of_range);
   EXPECT_THROW(builder.setBox({0, -kFarthestVoxel - 1, 0}, {1, 1, 1}), std::out_of_range);
 }
 

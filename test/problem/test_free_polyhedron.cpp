@@ -13,6 +13,16 @@ SegmentPoints straight(const Vector3& from, const Vector3& to) {
   return {from, from + (to - from) / 3.0, from + 2.0 * (to - from) / 3.0, to};
 }
 
+/// Up to `band` [m] beyond a segment.
+Box windowAbout(const SegmentPoints& segment, double band) {
+  Box window;
+  for (const Vector3& point : segment) {
+    window.include(point - Vector3::Constant(band));
+    window.include(point + Vector3::Constant(band));
+  }
+  return window;
+}
+
 /// Whether some corner of the voxel is farther in front of the planes, and within the window, than rounding.
 bool reachesInto(const FreePolyhedron& polyhedron, const Box& voxel) {
   constexpr double kRounding = 1e-6;
@@ -40,7 +50,7 @@ TEST(FreePolyhedron, HoldsItsSegmentAndNoVoxel) {
     const auto map = builder.build();
     const Vector3 from = random.vector(-2.0, 2.0);
     const SegmentPoints segment = straight(from, from + random.uniform(0.0, 0.6) * random.direction());
-    search.find(*map, segment, 1.0, polyhedron);
+    search.find(*map, segment, windowAbout(segment, 1.0), polyhedron);
     double least = 1.0;
     for (int i = 0; i <= 100; ++i) {
       least = std::min(least, map->distance(segment[0] + i / 100.0 * (segment[3] - segment[0]), least));
@@ -71,7 +81,8 @@ TEST(FreePolyhedron, OfACorridorIsItsCrossSection) {
   const auto map = builder.build();
   PolyhedronSearch search;
   FreePolyhedron polyhedron;
-  search.find(*map, straight(Vector3(0.0, 0.2, 0.1), Vector3(0.5, 0.25, 0.1)), 2.0, polyhedron);
+  const SegmentPoints segment = straight(Vector3(0.0, 0.2, 0.1), Vector3(0.5, 0.25, 0.1));
+  search.find(*map, segment, windowAbout(segment, 2.0), polyhedron);
   ASSERT_EQ(polyhedron.count, 3U);
   EXPECT_NEAR(polyhedron.clearance, 0.75, 1e-9);
   for (const Vector3& normal : {Vector3(0, -1, 0), Vector3(0, 1, 0), Vector3(0, 0, 1)}) {
@@ -90,7 +101,8 @@ TEST(FreePolyhedron, SaysWhereASegmentMeetsAVoxel) {
   const auto map = builder.build();
   PolyhedronSearch search;
   FreePolyhedron polyhedron;
-  search.find(*map, straight(Vector3(0, 0, 0), Vector3(1, 0, 0)), 1.0, polyhedron);
+  const SegmentPoints segment = straight(Vector3(0, 0, 0), Vector3(1, 0, 0));
+  search.find(*map, segment, windowAbout(segment, 1.0), polyhedron);
   EXPECT_DOUBLE_EQ(polyhedron.clearance, 0.0);
 }
 
@@ -100,7 +112,8 @@ TEST(FreePolyhedron, EndsWhereTheKnownEnds) {
   const auto map = builder.build();
   PolyhedronSearch search;
   FreePolyhedron polyhedron;
-  search.find(*map, straight(Vector3(0, 0, 0), Vector3(0.4, 0, 0)), 2.0, polyhedron);
+  const SegmentPoints segment = straight(Vector3(0, 0, 0), Vector3(0.4, 0, 0));
+  search.find(*map, segment, windowAbout(segment, 2.0), polyhedron);
   ASSERT_EQ(polyhedron.count, 1U);
   EXPECT_NEAR(polyhedron.planes[0].offset, -1.0, 1e-12);
   EXPECT_NEAR(polyhedron.clearance, 0.6, 1e-12);

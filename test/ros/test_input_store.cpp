@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "swarm_planner/ros/cloud_conversion.hpp"
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/input_store.hpp"
 
@@ -59,6 +60,42 @@ TEST_F(InputStoreTest, CountsWhatComesOutOfOrder) {
   EXPECT_EQ(store_.uavs()[0].dropped.of(InputFault::kOutOfOrder), 1U);
   store_.accept(0, sampleAt(10.2, 4.0));
   EXPECT_EQ(store_.uavs()[0].accepted, 2U) << "again is not out of order";
+}
+
+// A cloud comes after its UAV has flown on: what is cut out of it is to be where the UAV was.
+TEST_F(InputStoreTest, KnowsWhereUavsWere) {
+  EXPECT_TRUE(store_.placesAt(10.0).empty());
+  for (int i = 0; i <= 100; ++i) {
+    OdometrySample sample = sampleAt(10.0 + 0.02 * i, 3.0 * 0.02 * i);
+    sample.v = Vector3(3, 0, 0);
+    store_.accept(1, sample);
+  }
+  for (const double t : {10.313, 11.0, 11.99, 12.1}) {
+    ASSERT_EQ(store_.placesAt(t).size(), 1U);
+    EXPECT_NEAR(store_.placesAt(t)[0].x(), 3.0 * (t - 10.0), 1e-6) << t;
+  }
+  EXPECT_NEAR(store_.placesAt(20.0)[0].x(), 6.0 + 3.0 * PlaceHistory::kMostAhead, 1e-6);
+  EXPECT_NEAR(store_.placesAt(5.0)[0].x(), 0.0, 1e-6) << "what was first";
+  store_.clear();
+  EXPECT_TRUE(store_.placesAt(11.0).empty());
+}
+
+TEST_F(InputStoreTest, CutsBodiesOutWhereTheyWereWhenACloudWasTaken) {
+  for (int i = 0; i <= 50; ++i) store_.accept(0, sampleAt(10.0 + 0.02 * i, 3.0 * 0.02 * i));
+  const double taken = 10.5;
+  const std::vector<Vector3> seen = {{1.4, 0, 0}, {1.6, 0.1, 0}, {2.9, 0, 0}};
+  std::vector<Vector3> points = seen;
+  removeBodies(store_.placesAt(taken), 0.5, points);
+  EXPECT_EQ(points, std::vector<Vector3>({{2.9, 0, 0}}));
+  points = seen;
+  removeBodies({store_.uavs()[0].sample.p}, 0.5, points);
+  EXPECT_EQ(points, std::vector<Vector3>({{1.4, 0, 0}, {1.6, 0.1, 0}})) << "control: where they are now";
+}
+
+TEST_F(InputStoreTest, ManyMeasurementsDoNotCrowdOutThePast) {
+  for (int i = 0; i <= 20000; ++i) store_.accept(0, sampleAt(10.0 + 1e-4 * i, 1e-4 * i));
+  EXPECT_NEAR(store_.placesAt(10.2)[0].x(), 0.2, 1e-6);
+  EXPECT_NEAR(store_.placesAt(12.0)[0].x(), 2.0, 1e-6);
 }
 
 // Ids that a tracker invents anew in every message, near the UAV and far from it.

@@ -9,7 +9,7 @@ import rospy
 import rostest
 from map_harness import Octomap, box, octomap, octree
 from nav_msgs.msg import Odometry
-from swarm_harness import Diagnostics, Planner, Recorder, wait_for
+from swarm_harness import Diagnostics, Planner, Recorder, node_api, wait_for, wait_for_summary
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 
 RESOLUTION = 0.2  # [m]
@@ -59,11 +59,16 @@ class LiveMapTest(unittest.TestCase):
         least = min(clearance(position_of(each)) for each in odometry.all())
         farthest = max(position_of(each)[0] for each in odometry.all())
         rospy.loginfo('least clearance %.3f m, flown to x = %.2f m', least, farthest)
+        node_api('quad_sim_node').shutdown('/test', 'the run has been watched for long enough')
+        summary = wait_for_summary(rospy.get_param('~summary_file'))
+        self.assertAlmostEqual(summary['min_obstacle_clearance_m'], max(least, -RADIUS), delta=0.1)
         entry = diagnostics.entry('planner_node: map')
         self.assertIn('%d occupied voxels of 0.2 m' % len(box(LOW, HIGH)), entry.message)
         if not expect_clear:
             self.assertLess(least, -0.5 * RADIUS, 'flew through the wall')
+            self.assertEqual(summary['collisions'], 1, 'the simulation knows the wall, too')
             return
+        self.assertEqual(summary['collisions'], 0)
         self.assertGreater(least, 0.0)
         pairs = list(zip(trajectories.arrivals, trajectories.all()))
         bad = [arrival for arrival, trajectory in pairs if not is_clear(trajectory)]

@@ -41,6 +41,17 @@ TEST(MapWatch, EveryPassThroughTheWallIsOneContact) {
   EXPECT_NEAR(*watch.minClearance(), -kRadius, 1e-9);
 }
 
+TEST(MapWatch, AMapThatChangesCountsFromThenOn) {
+  MapWatch watch(nullptr, kRadius);
+  EXPECT_TRUE(watch.observe({Vector3(2, 0, 0)}).empty());
+  watch.setMap(wall());
+  EXPECT_EQ(watch.observe({Vector3(2, 0, 0)}).size(), 1U) << "it does not move, but there is a wall now";
+  EXPECT_NEAR(*watch.minClearance(), -kRadius, 1e-9);
+  watch.setMap(nullptr);
+  EXPECT_TRUE(watch.observe({Vector3(2, 0, 0)}).empty());
+  EXPECT_NEAR(*watch.minClearance(), -kRadius, 1e-9);
+}
+
 TEST(MapWatch, NothingIsMeasuredWithoutVoxels) {
   MapWatch none(nullptr, kRadius), empty(VoxelMapBuilder(0.1).build(), kRadius);
   for (MapWatch* watch : {&none, &empty}) {

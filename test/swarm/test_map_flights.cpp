@@ -53,6 +53,20 @@ TEST(MapFlights, StopBeforeAWallThatAppearsAndGoRoundIt) {
   EXPECT_GE(flight.leastVoxelDistance(), 0.2);
 }
 
+// Nobody stops from 1.2 m/s within 0.5 m: it is to come there as slow as it can, not to fly on through the wall.
+TEST(MapFlights, BrakeBeforeAWallThatIsTooNear) {
+  MappedFlight flight(makeIndoorMission({Vector3(-9, 0, 1.2)}, {Vector3(9, 0, 1.2)}), PlaceBuilder(0.1).build());
+  while (flight.flight().vehicle(0).p.x() < -2.0) flight.cycle();
+  ASSERT_GT(flight.flight().vehicle(0).v.x(), 1.1);
+  const double face = std::ceil(10.0 * (flight.flight().vehicle(0).p.x() + 0.7)) / 10.0;
+  PlaceBuilder place(0.1);
+  place.addBox({face, -40, -20}, {face + 0.2, 40, 20});
+  flight.setMap(place.build());
+  for (int i = 0; i < 10; ++i) flight.cycle();
+  EXPECT_LT(flight.flight().vehicle(0).p.x(), face + 0.1) << "it did not come out behind the wall";
+  EXPECT_LT(flight.flight().vehicle(0).v.norm(), 0.1);
+}
+
 TEST(MapFlights, LandAboveAMappedFloor) {
   MappedFlight flight(makeIndoorMission({Vector3(-4, -1.5, 1.2)}, {Vector3(-2, -1.5, 1.2)}), hallWithDoor(0.9));
   flight.fly(30);

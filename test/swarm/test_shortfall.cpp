@@ -46,6 +46,23 @@ TEST(Shortfall, IsWhatTheDistanceLacksTimesHowLong) {
   }
 }
 
+// Through a wall is no way out of it: else a UAV that cannot stop before one flies on at full speed.
+TEST(Shortfall, OfAWallIsThatOfWhoStaysInIt) {
+  VoxelMapBuilder builder(0.1);
+  builder.setBox({60, -50, -50}, {62, 50, 50});
+  const auto wall = builder.build();
+  CheckScene scene;
+  scene.surroundings.map = wall.get();
+  scene.surroundings.map_distance = 0.5;
+  EXPECT_NEAR(ofFlight(scene), 0.5 * (kShortfallTime - 2.9), 0.1) << "it gets there after 2.9 s";
+  // It begins in the wall: out of that it may fly.
+  VoxelMapBuilder around(0.1);
+  around.setBox({-1, -50, -50}, {1, 50, 50});
+  const auto start = around.build();
+  scene.surroundings.map = start.get();
+  EXPECT_LT(ofFlight(scene), 0.2);
+}
+
 // Not the sum: one conflict more does not make a moment worse than its worst.
 TEST(Shortfall, IsThatOfTheWorstAtEachMoment) {
   CheckScene scene;

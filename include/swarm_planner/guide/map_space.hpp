@@ -29,6 +29,9 @@ class MapSpace {
 
  private:
   double demandAt(const Vector3& p) const;
+  /// Whether nothing is in the box that holds all that is demanded of a line: many are told clear by that, and it takes
+  /// a tenth of a distance.
+  bool hasEmptyBox(const Vector3& from, const Vector3& to) const;
 
   const VoxelMap* map_ = nullptr;
   double distance_ = 0.0;

@@ -16,8 +16,9 @@ class CloudMap {
  public:
   /// An empty one. `resolution` [m], within that of maps.
   explicit CloudMap(double resolution);
-  /// One that clouds are added to. Throws std::invalid_argument if the octree cannot be read.
-  explicit CloudMap(const OctreeData& start);
+  /// One that clouds are added to. `present` is what toVoxelMap() makes of it; null: not known. Throws
+  /// std::invalid_argument if the octree cannot be read.
+  explicit CloudMap(const OctreeData& start, std::shared_ptr<const VoxelMap> present = nullptr);
   ~CloudMap();
   CloudMap(CloudMap&&) noexcept;
   CloudMap& operator=(CloudMap&&) noexcept;
@@ -29,12 +30,20 @@ class CloudMap {
   /// sensor is so far from the planning frame's origin that no octree reaches there.
   std::size_t insert(const std::vector<Vector3>& points, const Vector3& origin, double max_range);
 
-  /// Its present state, as toVoxelMap() of an octree.
-  std::shared_ptr<const VoxelMap> voxels(bool unknown_is_occupied, const VoxelMap* previous, std::string& why) const;
+  /// Its present state, as toVoxelMap() of an octree. Of the last one only the voxels that clouds have changed since
+  /// are made anew; all of them where there is none, or where `unknown_is_occupied` and more space has become known
+  /// about.
+  std::shared_ptr<const VoxelMap> voxels(bool unknown_is_occupied, const VoxelMap* previous, std::string& why);
 
  private:
+  std::shared_ptr<const VoxelMap> convertAll(bool unknown_is_occupied, const VoxelMap* previous,
+                                             std::string& why) const;
+  /// The last map with what has changed; null where that will not do.
+  std::shared_ptr<const VoxelMap> convertChanges() const;
+
   struct Tree;  // keeps OctoMap's headers from whoever includes this
   std::unique_ptr<Tree> tree_;
+  std::shared_ptr<const VoxelMap> last_;  ///< the tree without the changes that it has noted
 };
 
 }  // namespace swarm_planner

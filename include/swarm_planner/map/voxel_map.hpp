@@ -59,6 +59,10 @@ class VoxelMap {
   };
   Nearest findNearest(const Vector3& p, double limit) const;
 
+  /// Of what is occupied in the chunks that a box touches: the same in a map that is equal there, and as good as never
+  /// in another.
+  std::uint64_t fingerprint(const Box& box) const;
+
   /// Whether no occupied voxel has a point in common with a box.
   bool isEmpty(const Box& box) const;
 
@@ -68,8 +72,13 @@ class VoxelMap {
 
  private:
   friend class VoxelMapBuilder;
+  friend class VoxelMapEditor;
 
   VoxelMap() = default;
+  /// All occupied; one for all maps.
+  static const ChunkPointer& fullChunk();
+  /// What follows from the chunks, which are in order; where outside_is_occupied_, bounds_ stays.
+  void finish();
   void buildTable();
   /// Those of `box` that bounds() has; empty (some min > max) if none.
   void clampedRange(const Box& box, VoxelIndex& first, VoxelIndex& last) const;

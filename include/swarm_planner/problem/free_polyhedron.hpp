@@ -34,31 +34,35 @@ class PolyhedronSearch {
  public:
   PolyhedronSearch();
 
-  /// About a segment, in a window that reaches `band` [m] beyond its control points; smaller where that has more
-  /// voxels than there is room for, or more planes.
-  void find(const VoxelMap& map, const SegmentPoints& segment, double band, FreePolyhedron& polyhedron);
+  /// About a segment, in a window [m] that holds its control points; in a smaller one where that has more voxels than
+  /// there is room for, or more planes.
+  void find(const VoxelMap& map, const SegmentPoints& segment, const Box& window, FreePolyhedron& polyhedron);
 
  private:
   static constexpr std::size_t kMostBlocks = 1024;
   static constexpr std::size_t kMostVoxels = 4096;
 
   struct Block {
-    double gap = 0.0;  ///< to the box about the segment [m]
-    Box box;           ///< of its voxels [m]
+    double squared_gap = 0.0;  ///< to the box about the segment [m^2]
+    Box box;                   ///< of its voxels [m]
     const VoxelChunk* chunk = nullptr;
     const VoxelChunk::Range* range = nullptr;
     VoxelIndex corner;  ///< of the chunk, in voxels
   };
   struct Voxel {
-    double distance = 0.0;  ///< of its middle from the segment's chord [m]
-    Vector3 middle;         ///< [m]
+    double squared_distance = 0.0;  ///< of its middle from the segment's chord [m^2]
+    Vector3 middle;                 ///< [m]
     VoxelIndex index;
   };
 
+  /// The point of the segment's chord that is nearest to `p`.
+  Vector3 nearestOnChord(const Vector3& p) const;
   bool gatherBlocks(const VoxelMap& map);
   void gatherBlocks(const VoxelChunk& chunk, const VoxelIndex& corner);
   /// Adds the block's voxels that are not behind a plane. False if there is no room.
   bool expand(const Block& block);
+  /// Of the voxels of a row of a chunk from `corner` on, y and z being that of the row, those in front of all planes.
+  std::uint32_t inFront(std::uint32_t row, const VoxelIndex& corner) const;
   /// Looks for all planes. False if there is no room for voxels.
   bool separate();
   /// Adds the plane between the segment and a voxel; false if the segment meets the voxel.
@@ -71,7 +75,11 @@ class PolyhedronSearch {
 
   FreePolyhedron* polyhedron_ = nullptr;
   SegmentPoints segment_;
-  Box hull_;  ///< of the segment [m]
+  Vector3 chord_;     ///< of the segment [m]
+  Vector3 along_;     ///< chord_ over its squared length [1/m]
+  Box hull_;          ///< of the segment [m]
+  VoxelIndex first_;  ///< voxels of the window, each included
+  VoxelIndex last_;
   double resolution_ = 1.0;
   std::vector<Block> blocks_;
   std::vector<Voxel> voxels_;

@@ -39,31 +39,57 @@ struct CorridorRequest {
   double band = 0.0;      ///< how far beyond the plan's control points is looked [m]
 };
 
+/// What is kept of a corridor from one cycle to the next: the next plan mostly leads through the same free space. Fixed
+/// memory.
+struct CorridorMemory {
+  /// Of more the first ones are kept, and the others looked for again.
+  static constexpr std::size_t kMost = 12;
+  struct Part {
+    FreePolyhedron polyhedron;
+    SegmentPoints segment;          ///< that it was found about
+    std::uint64_t fingerprint = 0;  ///< of the map in its window
+  };
+  std::array<Part, kMost> parts;  ///< along the plan
+  std::size_t count = 0;
+};
+
 /// Makes problem.corridor. A segment that leads through occupied space gets the free space of the one before, so that
 /// a plan ends in front of what it cannot pass.
 class CorridorBuilder {
  public:
   /// About `plan`, which the solver is to improve. Segments that lead through occupied space are looked for on the
-  /// problem's path first.
-  void buildAbout(const CorridorRequest& request, const Trajectory& plan, UavProblem& problem);
+  /// problem's path first. Free space of the last cycle that has not changed since serves again; `memory` gets that of
+  /// this one.
+  void buildAbout(const CorridorRequest& request, const Trajectory& plan, CorridorMemory& memory, UavProblem& problem);
   /// About the problem's path, as the UAV can come along it: a plan that is held up behind something does not show the
   /// way round it.
   void buildAlongPath(const CorridorRequest& request, UavProblem& problem);
 
  private:
+  using Segments = std::array<SegmentPoints, kHorizon>;
+
   /// Segments along the path from the start on, with the target or as fast as the UAV can follow.
   void findWay(const UavProblem& problem);
-  /// Takes the free space about one of the two, or the last one.
-  void choose(const CorridorRequest& request, const SegmentPoints& first, const SegmentPoints& second, int k,
+  /// Takes the free space about segment k of a line, or the last one. Where that about the segment is none,
+  /// `or_at_its_end` tries the place where it ends.
+  void choose(const CorridorRequest& request, const Segments& line, std::size_t k, bool or_at_its_end,
               UavProblem& problem);
-  /// Whether a segment has ample room in the free space of the one before: neighbours mostly share it.
-  bool serves(const CorridorRequest& request, const SegmentPoints& segment) const;
-  void assign(const CorridorRequest& request, const Vector3& start, int k, CorridorSegment& segment) const;
+  /// Takes what was found in the last cycle. False if none of that will do.
+  bool recall(const CorridorRequest& request, const SegmentPoints& segment);
+  void findAnew(const CorridorRequest& request, const Segments& line, std::size_t k, bool or_at_its_end);
+  /// Forgets the parts that lie where the map has changed.
+  static void forgetChanged(const VoxelMap& map, CorridorMemory& memory);
+  void keep();
+  void assign(const CorridorRequest& request, const Vector3& start, std::size_t k, CorridorSegment& segment) const;
 
   PolyhedronSearch search_;
-  FreePolyhedron polyhedron_;  ///< of the segment in work
-  FreePolyhedron other_;
-  std::array<SegmentPoints, kHorizon> way_;
+  CorridorMemory::Part current_;           ///< of the segment in work
+  CorridorMemory::Part other_;             ///< tried
+  const CorridorMemory* known_ = nullptr;  ///< of the last cycle; null: none
+  std::size_t next_known_ = 0;             ///< the first that was not taken yet
+  CorridorMemory kept_;                    ///< for the next cycle
+  Segments way_;
+  Segments planned_;
 };
 
 }  // namespace swarm_planner

@@ -8,6 +8,7 @@
 
 #include "swarm_planner/obstacles/track_memory.hpp"
 #include "swarm_planner/ros/odometry_conversion.hpp"
+#include "swarm_planner/ros/place_history.hpp"
 #include "swarm_planner/ros/track_conversion.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
@@ -58,6 +59,8 @@ class InputStore {
   void fill(double now, Snapshot& snapshot);
 
   std::vector<UavInput> uavs() const;
+  /// Where the UAVs were at `t` [s], those that have been measured. Takes a lock that fill() does not take.
+  std::vector<Vector3> placesAt(double t) const;
   TrackInput tracks() const;
 
  private:
@@ -68,6 +71,8 @@ class InputStore {
   std::mutex memory_mutex_;     ///< of memory_ and nearest_, held while tracks are sorted out; taken before mutex_
   TrackMemory memory_;
   NearestTracks nearest_;
+  mutable std::mutex history_mutex_;  ///< of histories_
+  std::vector<PlaceHistory> histories_;
   mutable std::mutex mutex_;  ///< of all below
   std::vector<UavInput> uavs_;
   std::vector<TrackedObstacle> tracks_;  ///< those of memory_

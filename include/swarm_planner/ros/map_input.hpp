@@ -17,7 +17,7 @@
 
 #include "swarm_planner/map/cloud_map.hpp"
 #include "swarm_planner/ros/frame_transformer.hpp"
-#include "swarm_planner/ros/input_store.hpp"
+#include "swarm_planner/ros/input_fault.hpp"
 #include "swarm_planner/ros/octomap_message.hpp"
 #include "swarm_planner/ros/planner_options.hpp"
 #include "swarm_planner/swarm/mission.hpp"
@@ -43,9 +43,12 @@ class MapInput {
  public:
   /// Called in the thread of maps with a new map, once per second at most.
   using Listener = std::function<void(const VoxelMap&)>;
+  /// Where the UAVs were at a time [s], in the planning frame.
+  using Bodies = std::function<std::vector<Vector3>(double)>;
 
-  /// Starts receiving. The mission, `frames` and `store` must outlive this. The first map is that of the mission.
-  MapInput(const Mission& mission, const MapOptions& options, const FrameTransformer& frames, const InputStore& store,
+  /// Starts receiving; clouds only if there are `bodies` to cut out of them. Mission and `frames` must outlive this.
+  /// The first map is that of the mission.
+  MapInput(const Mission& mission, const MapOptions& options, const FrameTransformer& frames, Bodies bodies,
            Listener listener);
   ~MapInput();
   MapInput(const MapInput&) = delete;
@@ -56,6 +59,7 @@ class MapInput {
   MapInputReport report() const;
 
  private:
+  void subscribeClouds();
   void receiveOctomap(const std::string& topic, const OctomapMessage& message);
   void receiveCloud(const sensor_msgs::PointCloud2& message);
   /// Makes a map of the clouds that came since the last.
@@ -70,7 +74,7 @@ class MapInput {
   const Mission& mission_;
   const MapOptions options_;
   const FrameTransformer& frames_;
-  const InputStore& store_;
+  const Bodies bodies_;
   const Listener listener_;
   std::optional<OctreeData> octree_;   ///< the last octomap in the planning frame
   std::optional<CloudMap> clouds_;     ///< octree_ or the mission's map with clouds added; empty: none came since

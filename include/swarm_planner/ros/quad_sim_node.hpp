@@ -8,6 +8,7 @@
 #include <ros/subscriber.h>
 #include <ros/timer.h>
 #include <ros/wall_timer.h>
+#include <tf2/buffer_core.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
 
@@ -20,7 +21,9 @@
 #include "swarm_planner/PlannerStatus.h"
 #include "swarm_planner/obstacles/obstacle_track.hpp"
 #include "swarm_planner/ros/fault_service.hpp"
+#include "swarm_planner/ros/frame_transformer.hpp"
 #include "swarm_planner/ros/input_watch.hpp"
+#include "swarm_planner/ros/map_input.hpp"
 #include "swarm_planner/ros/quad_sim_options.hpp"
 #include "swarm_planner/ros/run_report.hpp"
 #include "swarm_planner/ros/sim_clock.hpp"
@@ -69,6 +72,9 @@ class QuadSimNode {
   std::vector<MessageLink<SetpointTrajectory>> trajectory_links_;
   std::vector<MessageLink<nav_msgs::Odometry>> odometry_links_;
   FaultInjector faults_;
+  tf2::BufferCore no_transforms_;  ///< the truth is given in the world's own frame
+  FrameTransformer frames_;
+  std::optional<MapInput> live_map_;
   std::vector<TrackedObstacle> obstacles_;  ///< the truth: as last received, or as in the scenario
 
   double origin_ = 0.0;         ///< simulated time at which steps are counted from [s]

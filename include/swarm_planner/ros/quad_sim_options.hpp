@@ -16,6 +16,7 @@ struct QuadSimOptions {
   double speed = 1.0;            ///< simulated over wall time; other than 1: the node publishes /clock
   double duration = 0.0;         ///< ends the run after so long [s] since t = 0; 0: when the scenario does
   std::string summary_file;      ///< where to write the summary as a line of JSON; empty: nowhere
+  bool live_map = false;         ///< maps of octomap_binary and octomap_full count, in place of the scenario's
   bool exit_at_end = false;      ///< shut down when the run has ended
 };
 

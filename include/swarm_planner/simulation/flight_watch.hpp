@@ -42,6 +42,7 @@ class FlightWatch {
  public:
   /// `map` may be null.
   FlightWatch(std::size_t uavs, std::shared_ptr<const VoxelMap> map) : map_(std::move(map)), uavs_(uavs) {}
+  void setMap(std::shared_ptr<const VoxelMap> map) { map_ = std::move(map); }
 
   /// One instant, `t` [s] since t = 0 of the run; `progress` has observed it.
   void observe(double t, const std::vector<Vector3>& positions, const std::vector<Superellipsoid>& obstacles,

@@ -18,6 +18,9 @@ class MapWatch {
   /// `map` null: there is nothing to keep clear of. `uav_radius` [m], >= 0.
   MapWatch(std::shared_ptr<const VoxelMap> map, double uav_radius);
 
+  /// Watches the clearance from another map from now on, or from none; what was seen so far stays.
+  void setMap(std::shared_ptr<const VoxelMap> map);
+
   /// Looks at one instant; the number of UAVs must not change between calls. Returns the UAVs that are in contact
   /// (clearance below zero) and were not at the instant before.
   const std::vector<std::size_t>& observe(const std::vector<Vector3>& positions);

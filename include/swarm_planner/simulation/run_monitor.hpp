@@ -65,6 +65,9 @@ class RunMonitor {
  public:
   explicit RunMonitor(const Mission& mission);
 
+  /// What is mapped has changed, from the next instant on; null: nothing is.
+  void setMap(const std::shared_ptr<const VoxelMap>& map);
+
   /// One instant: `t` [s] since t = 0 of the run, not earlier than the last; the vehicles in the scenario's order and
   /// the obstacles where they truly are (any fixed order and number). Throws std::invalid_argument if the number of
   /// vehicles is not the scenario's.

@@ -13,8 +13,8 @@ class MappedSpace {
   /// `parameters` must outlive this.
   explicit MappedSpace(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// Gives the problem the corridor about `plan`.
-  void findCorridor(const VoxelMap* map, const Trajectory& plan, UavProblem& problem);
+  /// Gives the problem the corridor about `plan`; `memory` is what the UAV has of its last one.
+  void findCorridor(const VoxelMap* map, const Trajectory& plan, CorridorMemory& memory, UavProblem& problem);
   /// Gives it that along its path.
   void findCorridorAlongPath(const VoxelMap* map, UavProblem& problem);
   /// From the plan's knots to the nearest occupied voxel, less uav_radius [m]; infinite where none is within half a

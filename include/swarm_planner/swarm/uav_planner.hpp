@@ -93,7 +93,7 @@ class UavPlanner {
   /// To `along_`, without anything to keep clear of.
   SqpResult solveGuideAlone();
   /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
-  void solveAlongGuide(ActiveRows& active, SqpResult& result);
+  void solveAlongGuide(UavRecord& record, SqpResult& result);
   /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.
   void keepJerkLimit(const KinematicState& start);
   /// Leaves the plan's motion: with the quickest stop or, if an obstacle comes to where that ends, with one beside the

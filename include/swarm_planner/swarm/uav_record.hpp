@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "swarm_planner/problem/map_corridor.hpp"
 #include "swarm_planner/problem/reference_path.hpp"
 #include "swarm_planner/sqp/sqp_solver.hpp"
 #include "swarm_planner/swarm/cycle_report.hpp"
@@ -35,10 +36,11 @@ struct UavRecord {
   KinematicState start;           ///< of the plan in work, at its epoch
   /// From what it is to fly, as measured; the mean over some cycles, in which noise is averaged [m].
   Vector3 deviation = Vector3::Zero();
-  FlightTask task;       ///< what it is to do, as commands left it
-  TrafficState traffic;  ///< towards other UAVs
-  GuidedFlight guide;    ///< round what blocks what it follows
-  ActiveRows active;     ///< of the last QP, at `active_epoch`
+  FlightTask task;          ///< what it is to do, as commands left it
+  TrafficState traffic;     ///< towards other UAVs
+  GuidedFlight guide;       ///< round what blocks what it follows
+  CorridorMemory corridor;  ///< the free space of its last plan, where there is a map
+  ActiveRows active;        ///< of the last QP, at `active_epoch`
   double active_epoch = 0.0;
   OdometryMonitor monitor;
   bool foreign = false;  ///< another system flies it
