@@ -84,9 +84,10 @@ TEST_F(SeparatingPlanesTest, AreThoseOfTheNearestBodies) {
   EXPECT_GT(dropped, 5000);
 }
 
-/// The planes of a flight straight past a UAV at rest that comes as close to it as `share` of what they keep.
-SegmentPlanes planesPast(double share) {
-  FlightProblem flight(kLine, 1.0, {Vector3(0, 0, 10), Vector3(2.0, 0.0, 0.0), Vector3::Zero()});
+/// The planes of a flight with 2 m/s straight past a UAV at rest that comes as close to it as `share` of what they keep,
+/// behind a target of `target_speed` [m/s].
+SegmentPlanes planesPast(double share, double target_speed = 2.0) {
+  FlightProblem flight(kLine, target_speed, {Vector3(0, 0, 10), Vector3(2.0, 0.0, 0.0), Vector3::Zero()});
   const LimitParameters& limits = flight.parameters.limits;
   const double distance = share * (limits.pair_distance + limits.pair_margin);
   flight.addUav(straightPlan(Vector3(6.0, distance, 10.0), Vector3::Zero(), 0.0, flight.problem.dt));
@@ -113,6 +114,13 @@ TEST_F(SeparatingPlanesTest, OfAPlanThatLeansOnABodyAreTheNearest) {
   EXPECT_TRUE(std::any_of(leaning.begin(), leaning.end(), [](const SegmentPlane& p) { return p.clearance < 0.0; }));
   EXPECT_LT(largestTurn(leaning, -Vector3::UnitY()), kSmall);
   EXPECT_GT(largestTurn(planesPast(0.3), -Vector3::UnitY()), kSmall) << "one that leads through it needs another way";
+}
+
+// In a jam all plans lean on others, and stay as they are unless some go another way.
+TEST_F(SeparatingPlanesTest, OfAPlanThatDoesNotGetOnAreThoseOfAnotherWay) {
+  constexpr double kSmall = 0.35;  // [rad]
+  constexpr double kTooFast = 5.0;  // [m/s]
+  EXPECT_GT(largestTurn(planesPast(0.99, kTooFast), -Vector3::UnitY()), kSmall);
 }
 
 // An answer that keeps the planes left out, too, is the answer of the QP with all of them.
