@@ -84,8 +84,8 @@ bool givesWayInACircle(const CycleReport& report) {
 }
 
 TEST(RightOfWay, ThroughAnOpeningThatFitsOneBothWays) {
-  EXPECT_EQ(arrivedAfter(unguided(throughTheOpening(4)), 60.0), 4);
-  EXPECT_LT(arrivedAfter(without(unguided(throughTheOpening(4))), 60.0), 4);
+  EXPECT_EQ(arrivedAfter(throughTheOpening(6), 60.0), 6);
+  EXPECT_LT(arrivedAfter(without(throughTheOpening(6)), 60.0), 6);
 }
 
 TEST(RightOfWay, HeadOnInALaneOneBacksOut) {
@@ -201,7 +201,7 @@ TEST(RightOfWay, LeavesFlightsAloneThatGetOn) {
 }
 
 TEST(RightOfWay, IsTheSameForAnyNumberOfThreads) {
-  Mission mission = unguided(throughTheOpening(4));
+  Mission mission = unguided(throughTheOpening(5));
   PerfectFlight alone(mission);
   mission.parameters.compute.threads = 3;
   PerfectFlight team(mission);
@@ -209,7 +209,7 @@ TEST(RightOfWay, IsTheSameForAnyNumberOfThreads) {
   for (int cycle = 0; cycle < 110; ++cycle) {
     for (const UavReport& uav : alone.cycle().uavs) gave_way += uav.reason == Reason::kGivesWay ? 1 : 0;
     team.cycle();
-    for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 5; ++i) {
       ASSERT_TRUE(identical(alone.planner().committed(i), team.planner().committed(i))) << cycle << " " << i;
     }
   }
