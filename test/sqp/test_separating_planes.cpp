@@ -84,8 +84,8 @@ TEST_F(SeparatingPlanesTest, AreThoseOfTheNearestBodies) {
   EXPECT_GT(dropped, 5000);
 }
 
-/// The planes of a flight with 2 m/s straight past a UAV at rest that comes as close to it as `share` of what they keep,
-/// behind a target of `target_speed` [m/s].
+/// The planes of a flight with 2 m/s straight past a UAV at rest that comes as close to it as `share` of what they
+/// keep, behind a target of `target_speed` [m/s].
 SegmentPlanes planesPast(double share, double target_speed = 2.0) {
   FlightProblem flight(kLine, target_speed, {Vector3(0, 0, 10), Vector3(2.0, 0.0, 0.0), Vector3::Zero()});
   const LimitParameters& limits = flight.parameters.limits;

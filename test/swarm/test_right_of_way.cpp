@@ -84,8 +84,8 @@ bool givesWayInACircle(const CycleReport& report) {
 }
 
 TEST(RightOfWay, ThroughAnOpeningThatFitsOneBothWays) {
-  EXPECT_EQ(arrivedAfter(throughTheOpening(6), 60.0), 6);
-  EXPECT_LT(arrivedAfter(without(throughTheOpening(6)), 60.0), 6);
+  EXPECT_EQ(arrivedAfter(throughTheOpening(6), 40.0), 6);
+  EXPECT_LT(arrivedAfter(without(throughTheOpening(6)), 40.0), 6);
 }
 
 TEST(RightOfWay, HeadOnInALaneOneBacksOut) {
