@@ -23,6 +23,7 @@ constexpr double kFirstFault = 5.0;                // [s]
 constexpr double kLeastGap = 3.0, kMostGap = 9.0;  // from one fault to the next [s]
 constexpr double kCompanionShare = 0.25;           // of the faults that come with a second one
 constexpr double kTakeoverTime = 3.0;              // in which a new planner finds out what UAVs do [s]
+constexpr double kSeen = 1.5;                      // in which others have new plans round who left its own [s]
 constexpr double kCompanionDelay = 1.0;            // at most [s]
 constexpr double kShortest = 0.5, kLongest = 5.0;  // durations [s]
 static_assert(kLongest < kRehearsalTrackTimeout, "obstacles are to be remembered while their tracks are lost");
@@ -97,12 +98,20 @@ bool isLie(FaultKind kind) {
 }
 
 /// Pairs that nobody could cope with. Two outages of tracks in a row last longer than tracks are remembered; a planner
-/// that takes over has nothing but odometry and tracks to go by.
-bool mayCoincide(FaultKind a, FaultKind b) {
-  if (isOfTracks(a) && isOfTracks(b)) return false;
-  const FaultKind other = a == FaultKind::kPlannerDead ? b : a;
-  const bool takeover = a == FaultKind::kPlannerDead || b == FaultKind::kPlannerDead;
-  return !takeover || !(isOfTracks(other) || isLie(other));
+/// that takes over has nothing but odometry and tracks to go by; a vehicle that leaves its trajectory on its own is in
+/// the way of others' until a planner has seen it, which a dead one does not; and one that has missed its newest
+/// trajectories is where others do not expect it when there are no newer ones.
+bool mayCoincide(const FaultInjection& earlier, const FaultInjection& later) {
+  if (isOfTracks(earlier.kind) && isOfTracks(later.kind)) return false;
+  const bool was_dead = earlier.kind == FaultKind::kPlannerDead;
+  const bool dies = later.kind == FaultKind::kPlannerDead;
+  if (!was_dead && !dies) return true;
+  const FaultKind other = was_dead ? later.kind : earlier.kind;
+  if (other == FaultKind::kSetpointsIgnored) {
+    return was_dead ? later.at > earlier.at + earlier.duration : later.at > earlier.at + kSeen;
+  }
+  if (other == FaultKind::kSetpointsLost) return was_dead || later.at > earlier.at + earlier.duration + kSeen;
+  return !isOfTracks(other) && !isLie(other);
 }
 
 void addFault(double at, Scenario& scenario, UniformRandom& random) {
@@ -110,7 +119,7 @@ void addFault(double at, Scenario& scenario, UniformRandom& random) {
     return std::all_of(scenario.faults.begin(), scenario.faults.end(), [&fault](const FaultInjection& earlier) {
       const double takeover = earlier.kind == FaultKind::kPlannerDead ? kTakeoverTime : 0.0;
       const bool is_over = earlier.at + earlier.duration + takeover + kCompanionDelay < fault.at;
-      return is_over || mayCoincide(earlier.kind, fault.kind);
+      return is_over || mayCoincide(earlier, fault);
     });
   };
   FaultInjection fault = drawFault(at, scenario, random);

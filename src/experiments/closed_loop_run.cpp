@@ -37,7 +37,8 @@ ClosedLoopRun::ClosedLoopRun(const Mission& mission, CyclePlanner& planner, std:
                    mission.parameters.simulation.latency),
       track_link_(mission.parameters.simulation, streamSeed(seed, RandomUse::kTrackLink)),
       monitor_(mission),
-      faults_(mission, seed) {
+      faults_(mission, seed),
+      records_(streamSeed(seed, RandomUse::kFlightRecord)) {
   const Scenario& scenario = mission.scenario;
   const SimulationParameters& simulation = mission.parameters.simulation;
   for (std::size_t i = 0; i < scenario.uavs.size(); ++i) {
@@ -185,7 +186,8 @@ void ClosedLoopRun::planCycle(double now, double epoch, const std::vector<RunObs
     restart_due_ = true;
     return;
   }
-  if (restart_due_) planner_.restart();
+  // Of every other planner that dies the record is lost too, at random.
+  if (restart_due_) planner_.restart(records_.nextUniform() < 0.5);
   if (director_ != nullptr) director_->beforeCycle(now, vehicles_, restart_due_);
   restart_due_ = false;
   snapshot_.now = now;

@@ -74,21 +74,24 @@ Reason OdometryMonitor::compare(const UavMeasurement& measurement, const MotionM
   const bool fits =
       !trusted_ || (doubted_ ? isBack(measurement, motions, parameters) ||
                                    (source_changed_ && hasStoodOnWay(measurement, motions, parameters.input))
-                             : follows(measurement, parameters));
+                             : follows(measurement, motions, parameters));
   if (fits) {
     trust(measurement, motions);
     return Reason::kNone;
   }
   // A drift has been there for a while before it showed: so far it is not the UAV that is off its motion.
   if (!doubted_ && fault_ == Reason::kOdometryDrifts) trusted_off_ -= drift_;
-  if (!doubted_ || !isReachable(*doubted_, measurement, parameters)) doubted_since_ = measurement.stamp;
+  const bool goes_on = doubted_ && isReachable(*doubted_, measurement, parameters);
+  if (!goes_on) doubted_since_ = measurement.stamp;
+  if (doubted_ && !goes_on) after_gap_ = false;
   doubted_ = measurement;
   if (measurement.stamp - doubted_since_ < parameters.input.relocalisation_time) return fault_;
   trust(measurement, motions);
   return Reason::kNone;
 }
 
-bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameters& parameters) {
+bool OdometryMonitor::follows(const UavMeasurement& measurement, const MotionMemory& motions,
+                              const Parameters& parameters) {
   const double dt = measurement.stamp - trusted_->stamp;
   fault_ = dt < 0.0 ? Reason::kOdometryBackwards : Reason::kOdometryJumps;
   if (!isReachable(*trusted_, measurement, parameters)) return false;
@@ -96,7 +99,8 @@ bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameter
   const bool is_known = !trusted_->v.isZero(0.0) || !measurement.v.isZero(0.0);
   if (dt > kLongestStep || !is_known || !has_moved_) {
     drift_.setZero();
-    return true;
+    after_gap_ = source_changed_ = dt > kLongestStep && isFarOff(measurement, motions, parameters);
+    return !after_gap_;
   }
   drift_ *= std::exp(-dt / kDriftMemory);
   drift_ += measurement.p - trusted_->p - 0.5 * dt * (trusted_->v + measurement.v);
@@ -107,21 +111,46 @@ bool OdometryMonitor::follows(const UavMeasurement& measurement, const Parameter
 bool OdometryMonitor::isBack(const UavMeasurement& measurement, const MotionMemory& motions,
                              const Parameters& parameters) const {
   if (measurement.stamp <= trusted_->stamp) return false;
-  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
-  if (!expected) {
+  const std::optional<double> off = newDeviation(measurement, motions);
+  if (!off) {
     const bool is_recent = measurement.stamp - trusted_->stamp <= parameters.input.odometry_doubt_time;
     return is_recent && isReachable(*trusted_, measurement, parameters);
   }
-  const Vector3 off = measurement.p - expected->p;
-  // Tracking may have brought it nearer to its motion meanwhile.
-  const double share = trusted_off_.isZero(0.0) ? 0.0 : off.dot(trusted_off_) / trusted_off_.squaredNorm();
-  return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm() <= kMotionNoises * noiseOf(parameters.input);
+  return *off <= kMotionNoises * noiseOf(parameters.input);
+}
+
+bool OdometryMonitor::isFarOff(const UavMeasurement& measurement, const MotionMemory& motions,
+                               const Parameters& parameters) const {
+  const double explained = parameters.limits.tracking_error + kMotionNoises * noiseOf(parameters.input);
+  const std::optional<double> off = newDeviation(measurement, motions);
+  return off && *off > std::max(parameters.input.off_plan_distance, explained);
+}
+
+std::optional<double> OdometryMonitor::newDeviation(const UavMeasurement& measurement,
+                                                    const MotionMemory& motions) const {
+  const auto from = [&](const KinematicState& expected) {
+    const Vector3 off = measurement.p - expected.p;
+    // Tracking may have brought it nearer to its motion meanwhile.
+    const double share = trusted_off_.isZero(0.0) ? 0.0 : off.dot(trusted_off_) / trusted_off_.squaredNorm();
+    return (off - std::clamp(share, 0.0, 1.0) * trusted_off_).norm();
+  };
+  const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);
+  if (!expected) return {};
+  double least = from(*expected);
+  // The newest may not have arrived: nobody has seen yet.
+  const CommittedMotion* older = motions.older();
+  if (older != nullptr && measurement.stamp >= older->epoch()) {
+    least = std::min(least, from(older->at(measurement.stamp)));
+  }
+  return least;
 }
 
 bool OdometryMonitor::hasStoodOnWay(const UavMeasurement& measurement, const MotionMemory& motions,
                                     const InputParameters& input) {
   constexpr double kStep = 0.1;  // [s]
-  const double begin = std::max(trusted_->stamp, measurement.stamp - input.relocalisation_time);
+  // It may have begun to brake before it was believed last.
+  const double begin =
+      std::max(trusted_->stamp, measurement.stamp - input.relocalisation_time) - input.odometry_doubt_time;
   bool on_way = false;
   for (double t = measurement.stamp; t >= begin && !on_way; t -= kStep) {
     const std::optional<KinematicState> expected = motions.expectedAt(t);
@@ -138,7 +167,7 @@ bool OdometryMonitor::hasStoodOnWay(const UavMeasurement& measurement, const Mot
 void OdometryMonitor::trust(const UavMeasurement& measurement, const MotionMemory& motions) {
   if (doubted_ || !trusted_) drift_.setZero();
   doubted_.reset();
-  source_changed_ = false;
+  source_changed_ = after_gap_ = false;
   stood_.reset();
   trusted_ = measurement;
   const std::optional<KinematicState> expected = motions.expectedAt(measurement.stamp);

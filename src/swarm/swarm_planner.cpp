@@ -38,7 +38,7 @@ class SwarmPlanner::Impl {
         bounds(parameters, mission.scenario.workspace ? &*mission.scenario.workspace : nullptr),
         tracks(parameters.input.track_timeout, maxTracks(mission), uavs.size()),
         surroundings(parameters, uavs.size(), maxTracks(mission)),
-        takeover(homesOf(mission.scenario)),
+        takeover(homesOf(mission.scenario), parameters.limits),
         director(mission, parameters),
         guides(parameters, mission.scenario.workspace, uavs.size(), maxTracks(mission)),
         right_of_way(mission, parameters),
@@ -283,7 +283,7 @@ class SwarmPlanner::Impl {
       }
       director.direct(epoch, snapshot.uavs[i], uav, snapshot.map.get());
     } else if (isPlannedFor(uav.task.mode)) {
-      uav.loseSight(parameters);
+      uav.loseSight(parameters, bounds);
     }
     if (uav.motions.empty()) {
       surroundings.setUnknown(i);

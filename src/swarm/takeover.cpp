@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "swarm_planner/swarm/flight_envelope.hpp"
+#include "swarm_planner/swarm/neighbour_lists.hpp"
+#include "swarm_planner/swarm/plan_start.hpp"
 #include "swarm_planner/swarm/stopping.hpp"
 #include "swarm_planner/swarm/uav_record.hpp"
 
@@ -160,7 +162,35 @@ void Takeover::observe(std::size_t uav, const UavMeasurement& measurement) {
 
 bool Takeover::isReady(std::size_t tracks) const {
   const bool knows_all = obstacles_ && tracks >= *obstacles_ && now_ > last_epoch_ + kDistinct;
-  return knows_all || (begin_ && now_ - *begin_ >= kPatience);
+  return knows_all || (begin_ && now_ - *begin_ >= kPatience) || (!obstacles_ && foreseesEncounter());
+}
+
+bool Takeover::foreseesEncounter() const {
+  const Vector3 semi_axes(limits_.pair_distance, limits_.pair_distance, limits_.pair_distance_vertical);
+  std::vector<Box> swept(flights_.size());
+  for (std::size_t i = 0; i < flights_.size(); ++i) {
+    if (flights_[i].count() == 0) continue;
+    const KinematicState x = predictFromMeasurement(flights_[i].newest(), now_);
+    swept[i].include(x.p);
+    swept[i].include(x.p + kUrgent * x.v);
+    swept[i].min -= 0.5 * semi_axes;
+    swept[i].max += 0.5 * semi_axes;
+  }
+  NeighbourLists near;
+  near.build(swept);
+  for (std::size_t i = 0; i < flights_.size(); ++i) {
+    for (const std::uint32_t j : near.of(i)) {
+      const KinematicState a = predictFromMeasurement(flights_[i].newest(), now_);
+      const KinematicState b = predictFromMeasurement(flights_[j].newest(), now_);
+      if (std::min(a.v.norm(), b.v.norm()) > kHovering) continue;
+      const Vector3 apart = (b.p - a.p).cwiseQuotient(semi_axes);
+      const Vector3 drift = (b.v - a.v).cwiseQuotient(semi_axes);
+      const double speed_squared = drift.squaredNorm();
+      const double nearest = speed_squared > 0.0 ? std::clamp(-apart.dot(drift) / speed_squared, 0.0, kUrgent) : 0.0;
+      if ((apart + nearest * drift).norm() < 1.0) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace swarm_planner

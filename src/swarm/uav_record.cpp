@@ -152,17 +152,18 @@ void UavRecord::forgetMotions() {
   deviation.setZero();
 }
 
-void UavRecord::loseSight(const Parameters& parameters) {
-  // Odometry is not believed there yet, but that may be the truth: others keep clear of it.
-  if (monitor.stood()) aside.emplace().assignRest(monitor.stood()->stamp, monitor.stood()->p);
-  if (unseen) return;
+void UavRecord::loseSight(const Parameters& parameters, const FlightBounds& bounds) {
+  // Who is not seen may have stopped on its own, as autopilots without a position do, and what odometry says may be the
+  // truth though it is not believed: others keep clear of there, too.
+  const bool loses = !unseen;
   unseen = true;
-  if (aside) return;
-  const std::optional<UavMeasurement>& seen = monitor.trusted();
-  const std::optional<KinematicState> expected =
-      seen ? motions.expectedAt(seen->stamp) : std::optional<KinematicState>();
-  if (expected && (seen->p - expected->p).norm() > leastDistanceOff(parameters)) {
-    aside.emplace().assignRest(seen->stamp, seen->p);
+  if (monitor.stood()) {
+    aside.emplace().assignRest(monitor.stood()->stamp, monitor.stood()->p);
+  } else if (const UavMeasurement* elsewhere = monitor.seenElsewhere()) {
+    setAside(predictFromMeasurement(*elsewhere, elsewhere->stamp), elsewhere->stamp, parameters, bounds);
+  } else if (loses && monitor.trusted()) {
+    const UavMeasurement& seen = *monitor.trusted();
+    setAside(predictFromMeasurement(seen, seen.stamp), seen.stamp, parameters, bounds);
   }
 }
 

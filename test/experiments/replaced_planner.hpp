@@ -25,20 +25,23 @@ class ReplacedPlanner : public CyclePlanner {
  public:
   ReplacedPlanner(const Mission& mission, const Replacement& replacement)
       : mission_(mission), replacement_(replacement), planner_(std::make_unique<SwarmPlanner>(mission)) {
-    memory_.uavs.resize(planner_->uavCount());
     silence_.uavs.resize(planner_->uavCount());
   }
 
   const CycleReport& plan(const Snapshot& snapshot, double epoch) override {
     if (planner_ && !replaced_ && epoch >= replacement_.death) {
-      if (replacement_.newest_unsent) keep(planner_->plan(snapshot, epoch), snapshot);
+      if (replacement_.newest_unsent) {
+        planner_->plan(snapshot, epoch);
+        remember(*planner_, snapshot.obstacles.size(), memory_);
+      }
       planner_.reset();
     }
     if (!planner_ && epoch < replacement_.death + replacement_.gap) return silence_;
     if (!planner_) replace(epoch);
     Snapshot seen = snapshot;
     if (replaced_ && epoch < *replaced_ + replacement_.blind) seen.obstacles.clear();
-    keep(planner_->plan(seen, epoch), snapshot);
+    planner_->plan(seen, epoch);
+    remember(*planner_, snapshot.obstacles.size(), memory_);
     noteReturn(epoch);
     return planner_->report();
   }
@@ -55,21 +58,6 @@ class ReplacedPlanner : public CyclePlanner {
     planner_ = std::make_unique<SwarmPlanner>(mission_);
     if (replacement_.memory) planner_->takeOver(memory_);
     replaced_ = epoch;
-  }
-
-  void keep(const CycleReport& report, const Snapshot& snapshot) {
-    memory_.time_zero = report.time_zero;
-    memory_.obstacles = snapshot.obstacles.size();
-    for (std::size_t i = 0; i < memory_.uavs.size(); ++i) {
-      if (!report.uavs[i].planned) continue;
-      UavMemory& uav = memory_.uavs[i];
-      uav.older = uav.newest;
-      uav.newest = planner_->committed(i);
-      uav.motions = std::min(uav.motions + 1, 2);
-      uav.progress = planner_->progress(i);
-      uav.target = planner_->target(i, report.epoch).arc_length;
-      uav.epoch = report.epoch;
-    }
   }
 
   void noteReturn(double epoch) {

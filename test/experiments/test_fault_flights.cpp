@@ -29,10 +29,14 @@ class RestingPlanner : public CyclePlanner {
     return report_;
   }
   const CommittedMotion& committed(std::size_t uav) const override { return motions_[uav]; }
-  void restart() override { restarts.push_back(snapshots.size()); }
+  void restart(bool record) override {
+    restarts.push_back(snapshots.size());
+    records.push_back(record);
+  }
 
   std::vector<Snapshot> snapshots;
   std::vector<std::size_t> restarts;  ///< how many plans had been made before each
+  std::vector<bool> records;          ///< whether there was one for each
 
  private:
   CycleReport report_;
@@ -107,6 +111,19 @@ TEST(FaultFlights, ADeadPlannerPlansNothingAndIsFollowedByANewOne) {
   ASSERT_EQ(planner.restarts.size(), 1u);
   EXPECT_NEAR(planner.snapshots[planner.restarts[0]].now, 3.6, 1e-9);
   EXPECT_EQ(positions.epochs.size(), planner.snapshots.size()) << "cycles are told that nobody planned";
+}
+
+TEST(FaultFlights, SomePlannersThatDieLeaveARecord) {
+  std::vector<FaultInjection> faults;
+  for (double at = 1.0; at < 40.0; at += 2.0) faults.push_back({FaultKind::kPlannerDead, "", at, 1.0, 0.0});
+  Mission mission = twoHovering(faults);
+  mission.scenario.end.duration = 45.0;
+  RestingPlanner planner(mission);
+  ClosedLoopRun(mission, planner, 0).fly();
+  const auto left = std::count(planner.records.begin(), planner.records.end(), true);
+  EXPECT_EQ(planner.records.size(), faults.size());
+  EXPECT_GT(left, 4);
+  EXPECT_LT(left, 16);
 }
 
 TEST(FaultFlights, WithoutFaultsThePlannerLivesOn) {

@@ -39,6 +39,27 @@ TEST(Rehearsal, TenMinutesOfFaultsKeepEverybodyClearAndFlying) {
   }
 }
 
+// Nobody could: all others fly what was checked against its trajectory.
+TEST(Rehearsal, NobodyIsToCopeWithAVehicleThatLeavesItsTrajectoryWhileNoPlannerLives) {
+  int planners = 0, overlaps = 0;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Scenario scenario = rehearsal(6, 3600.0, seed);
+    for (const FaultInjection& death : scenario.faults) {
+      if (death.kind != FaultKind::kPlannerDead) continue;
+      ++planners;
+      for (const FaultInjection& other : scenario.faults) {
+        const bool while_dead = other.at >= death.at && other.at <= death.at + death.duration;
+        const bool as_it_dies = other.at < death.at && other.at + other.duration >= death.at;
+        if (while_dead || as_it_dies) overlaps += &other != &death;
+        EXPECT_FALSE(while_dead && other.kind == FaultKind::kSetpointsIgnored) << seed << " " << death.at;
+        EXPECT_FALSE(as_it_dies && other.kind == FaultKind::kSetpointsLost) << seed << " " << death.at;
+      }
+    }
+  }
+  EXPECT_GT(planners, 300);
+  EXPECT_GT(overlaps, 50) << "with other faults it is not alone";
+}
+
 TEST(Rehearsal, WithoutMemoryOfLostTracksThereAreCollisions) {
   EXPECT_FALSE(rehearsed({{"track_timeout", 0.5}}).flown.collisions.empty());
 }

@@ -15,7 +15,7 @@ TEST(RandomStream, EveryRunUseAndUavHasASeedOfItsOwn) {
   std::set<std::uint64_t> seeds;
   std::size_t count = 0;
   for (std::uint64_t run = 0; run < 20; ++run) {
-    for (auto use = RandomUse::kPositionNoise; use <= RandomUse::kJitter;
+    for (auto use = RandomUse::kPositionNoise; use <= RandomUse::kFlightRecord;
          use = static_cast<RandomUse>(static_cast<std::uint64_t>(use) + 1)) {
       for (std::size_t uav = 0; uav < 200; ++uav, ++count) seeds.insert(streamSeed(run, use, uav));
     }

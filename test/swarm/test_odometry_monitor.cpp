@@ -125,14 +125,18 @@ TEST_F(Monitor, DoubtsWhereAFrozenPositionGoesOn) {
 
 // It stands on its way, where it has stopped on its own meanwhile; but not at the end of a jump.
 TEST_F(Monitor, BelievesAUavThatHasStoppedWhileItsOdometryLied) {
-  for (const double aside : {0.2, 2.0}) {
+  struct Case {
+    double along;  ///< the way, where it stands, as the time when it was to be there [s]: it may have braked before 0.6
+    double aside;  ///< [m]
+  };
+  for (const auto [along, aside] : {Case{0.9, 0.2}, Case{0.3, 0.2}, Case{0.9, 2.0}}) {
     monitor_ = OdometryMonitor();
     motions_.clear();
     commit(kPlace, kFast);
     flyTo(kPlace);
     const Vector3 jump(0, 20, 0);
     for (double t = 0.0; t < 0.7; t += 0.3) EXPECT_EQ(judge(t, kPlace + t * kFast, kFast), Reason::kNone);
-    const Vector3 stand = kPlace + 0.9 * kFast + Vector3(0, aside, 0);
+    const Vector3 stand = kPlace + along * kFast + Vector3(0, aside, 0);
     for (double t = 0.9; t < 2.5; t += 0.3) {
       EXPECT_EQ(judge(t, stand + jump + 0.01 * t * kFast, Vector3::Zero()), Reason::kOdometryJumps);
     }
@@ -323,6 +327,37 @@ TEST_F(Monitor, LetsNoisePass) {
 TEST_F(Monitor, LetsAGapPassInWhichTheUavFlewOn) {
   EXPECT_EQ(judge(0.0, kPlace, 5.0 / 3.0 * kFast), Reason::kNone);
   EXPECT_EQ(judge(4.0, kPlace + Vector3(20, 0, 0), 5.0 / 3.0 * kFast), Reason::kNone);
+}
+
+// In a gap nearly every place could have been flown to: what counts is where the UAV was to fly.
+TEST_F(Monitor, DoubtsWhoIsBackElsewhereAfterAGap) {
+  commit(kPlace, kFast);
+  for (const double aside : {0.9, 1.2}) {
+    monitor_ = OdometryMonitor();
+    EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+    const bool believed = aside < parameters_.input.off_plan_distance;
+    const auto seen = [&](double t) { return judge(t, kPlace + t * kFast + Vector3(0, aside, 0), kFast); };
+    EXPECT_EQ(seen(2.0), believed ? Reason::kNone : Reason::kOdometryJumps);
+    EXPECT_EQ(monitor_.seenElsewhere() != nullptr, !believed) << "others keep clear of there, too";
+    if (believed) continue;
+    EXPECT_EQ(seen(2.3), Reason::kOdometryJumps);
+    EXPECT_NE(monitor_.seenElsewhere(), nullptr);
+    EXPECT_EQ(judge(2.6, kPlace + Vector3(0, 50, 0), kFast), Reason::kOdometryJumps);
+    EXPECT_EQ(monitor_.seenElsewhere(), nullptr) << "nobody flies that: it lies";
+    EXPECT_EQ(judge(2.9, kPlace + 2.9 * kFast, kFast), Reason::kNone) << "back on its motion";
+  }
+}
+
+// Its newest trajectory did not arrive, and nobody could see that.
+TEST_F(Monitor, BelievesAfterAGapWhoFliesTheMotionBefore) {
+  commit(kPlace, kFast);
+  for (const bool is_known : {true, false}) {
+    if (!is_known) motions_.clear();
+    commit(kPlace, Vector3(0, 3, 0));
+    monitor_ = OdometryMonitor();
+    EXPECT_EQ(judge(0.0, kPlace, kFast), Reason::kNone);
+    EXPECT_EQ(judge(2.0, kPlace + 2.0 * kFast, kFast), is_known ? Reason::kNone : Reason::kOdometryJumps);
+  }
 }
 
 // ---- Stamps

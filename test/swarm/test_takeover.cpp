@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "perfect_flight.hpp"
+#include "swarm_planner/obstacles/pair_ellipsoid.hpp"
 #include "swarm_planner/swarm/takeover.hpp"
 #include "swarm_planner/swarm/uav_record.hpp"
 
@@ -12,27 +13,11 @@ namespace {
 
 constexpr double kPeriod = 0.3;
 
-/// What a planner leaves after its last cycle.
-FlightMemory memoryOf(const SwarmPlanner& planner) {
-  FlightMemory memory;
-  memory.time_zero = planner.report().time_zero;
-  for (std::size_t i = 0; i < planner.uavCount(); ++i) {
-    UavMemory uav;
-    uav.motions = 1;
-    uav.newest = planner.committed(i);
-    uav.progress = planner.progress(i);
-    uav.target = planner.target(i, planner.report().epoch).arc_length;
-    uav.epoch = planner.report().epoch;
-    memory.uavs.push_back(uav);
-  }
-  return memory;
-}
-
 /// A flight of `cycles` cycles and what is needed to replace its planner.
 struct Interrupted {
   explicit Interrupted(int cycles, const Mission& given = twoAbreast()) : mission(given), flight(given) {
     flight.cycles(cycles);
-    memory = memoryOf(flight.planner());
+    remember(flight.planner(), 0, memory);
   }
   /// Odometry `gap` seconds after the last cycle.
   Snapshot snapshot(double gap) const {
@@ -183,6 +168,28 @@ TEST(Takeover, WithoutARecordTakesUavsInFlightToBrake) {
   const double epoch = planner.report().epoch;
   EXPECT_LT((planner.committed(0).at(epoch).p - before.flight.vehicle(0, epoch).p).norm(), 0.03);
   EXPECT_LT((planner.committed(0).at(epoch).v - before.flight.vehicle(0, epoch).v).norm(), 0.2);
+}
+
+// Who stands in another one's way may not fly what was planned: waiting is not safe then.
+TEST(Takeover, DoesNotWaitWhileOneFliesIntoAnother) {
+  const Mission mission = twoAbreast();
+  for (const double ahead : {4.0, 12.0}) {
+    SwarmPlanner planner(mission);
+    Snapshot snapshot = snapshotOf(mission, 100.0);
+    snapshot.uavs[0].p = Vector3(30, 0, 10);
+    snapshot.uavs[0].v = Vector3(3, 0, 0);
+    snapshot.uavs[1].p = Vector3(30 + ahead, 0.5, 10);
+    snapshot.uavs[1].v.setZero();
+    const CycleReport& report = planner.plan(snapshot, 100.0 + kPeriod);
+    const bool is_urgent = ahead < 3.0 * Takeover::kUrgent;
+    EXPECT_EQ(report.started, is_urgent);
+    EXPECT_EQ(report.uavs[0].planned, is_urgent);
+    if (!is_urgent) continue;
+    for (double t = 0.0; t < 10.0; t += 0.1) {
+      const Vector3 apart = planner.committed(0).after(t).p - planner.committed(1).after(t).p;
+      EXPECT_GT(pairGauge(apart, mission.parameters.limits), 1.0) << t;
+    }
+  }
 }
 
 TEST(Takeover, DoesNotWaitForGoodForAUavThatIsLost) {

@@ -21,7 +21,7 @@ enum class FaultKind {
   kWind,               ///< horizontal wind of the magnitude [m/s] blows it off course
   kTracksLost,         ///< no obstacle tracks arrive
   kTracksFlicker,      ///< each obstacle is missing from each message with the magnitude's probability
-  kPlannerDead,        ///< nothing is planned; afterwards a new planner takes over from odometry
+  kPlannerDead,        ///< nothing is planned; then a new planner takes over, every other time without a record
 };
 
 /// What a kind of fault is about and what its magnitude means.

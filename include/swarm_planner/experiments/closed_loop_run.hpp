@@ -97,6 +97,7 @@ class ClosedLoopRun {
   const CycleReport* report_ = nullptr;  ///< of the last cycle; null while the planner is dead
   bool restart_due_ = false;             ///< the planner has died
   FaultInjector faults_;
+  RandomStream records_;  ///< which planners that die leave a record
   RunDirector* director_ = nullptr;
   SetpointTrajectory setpoints_;
   std::vector<UavSample> samples_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "swarm_planner/experiments/processor_clock.hpp"
+#include "swarm_planner/swarm/flight_memory.hpp"
 #include "swarm_planner/swarm/swarm_planner.hpp"
 
 namespace swarm_planner {
@@ -17,8 +18,9 @@ class CyclePlanner {
   virtual const CycleReport& plan(const Snapshot& snapshot, double epoch) = 0;
   /// What a UAV is to fly, its stop included; meaningful where the report says `planned`.
   virtual const CommittedMotion& committed(std::size_t uav) const = 0;
-  /// Goes on as a new process would that knows the mission alone. A planner without memory has nothing to forget.
-  virtual void restart() {}
+  /// Goes on as a new process would that knows the mission, and with `record` what the one before had committed. A
+  /// planner that remembers nothing has nothing to forget.
+  virtual void restart(bool /*record*/) {}
   /// Processor time of this thread that the last cycle took [s]; 0 where nobody measures it.
   virtual double processorTime() const { return 0.0; }
 };
@@ -36,10 +38,15 @@ class SwarmCyclePlanner : public CyclePlanner {
     const ProcessorClock clock;
     const CycleReport& report = planner_.plan(snapshot, epoch);
     processor_time_ = clock.elapsed();
+    remember(planner_, snapshot.obstacles.size(), memory_);
     return report;
   }
   const CommittedMotion& committed(std::size_t uav) const override { return planner_.committed(uav); }
-  void restart() override { planner_ = SwarmPlanner(mission_, mode_); }
+  void restart(bool record) override {
+    const bool in_flight = planner_.report().started;
+    planner_ = SwarmPlanner(mission_, mode_);
+    if (record && in_flight) planner_.takeOver(memory_);
+  }
   double processorTime() const override { return processor_time_; }
 
   /// See SwarmPlanner::setReference().
@@ -53,6 +60,7 @@ class SwarmCyclePlanner : public CyclePlanner {
   const Mission& mission_;
   PlanningMode mode_;
   SwarmPlanner planner_;
+  FlightMemory memory_;
   double processor_time_ = 0.0;
 };
 

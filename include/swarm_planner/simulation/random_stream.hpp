@@ -21,6 +21,7 @@ enum class RandomUse : std::uint64_t {
   kFaultDirection,
   kTrackFlicker,
   kMissions,
+  kFlightRecord,
 };
 
 /// Seed of the stream for `use` by UAV `index`, in a run whose seed is `seed`.

@@ -26,4 +26,9 @@ struct FlightMemory {
   std::vector<UavMemory> uavs;  ///< in the scenario's order
 };
 
+class SwarmPlanner;
+
+/// Takes into `memory` what the planner's last cycle has committed. `obstacles`: tracks that were in use.
+void remember(const SwarmPlanner& planner, std::size_t obstacles, FlightMemory& memory);
+
 }  // namespace swarm_planner

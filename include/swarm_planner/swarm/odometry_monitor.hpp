@@ -25,6 +25,8 @@ namespace swarm_planner {
 ///  - stamps go back: the same, told by its own reason.
 ///  - drifts: the position does not follow the velocity: p1 - p0 - dt (v0 + v1) / 2, summed up over the measurements of
 ///    some 5 s, exceeds 7 n. A UAV that is pushed or blown off has both.
+///  - is back elsewhere: after more than 0.5 s without any, in which almost any place could have been flown to, farther
+///    off the motion than off_plan_distance and than tracking_error + 3 n. The same as a jump.
 ///    After any of these a measurement is believed that lies within 3 n of where the motion, or the motion with the
 ///    deviation that was there before (without what has drifted), has the UAV (without a motion: that a flight within T
 ///    leads to); one that has stood for T where the motion has led since, once the source does not go on where it
@@ -48,15 +50,23 @@ class OdometryMonitor {
   const std::optional<UavMeasurement>& trusted() const { return trusted_; }
   /// Where a UAV whose odometry is doubted seems to stand, not yet for long enough to be believed.
   const std::optional<UavMeasurement>& stood() const { return stood_; }
+  /// Where a UAV seems to be whose odometry came back elsewhere after a gap: nobody knows yet whether it lies. Null:
+  /// not so.
+  const UavMeasurement* seenElsewhere() const { return after_gap_ && doubted_ ? &*doubted_ : nullptr; }
   /// By how much positions have left the way that the velocities tell, in the last seconds up to that one [m].
   const Vector3& drift() const { return drift_; }
 
  private:
   Reason compare(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);
   /// Whether it follows from the last trusted one; otherwise fault_ says why not.
-  bool follows(const UavMeasurement& measurement, const Parameters& parameters);
+  bool follows(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters);
   /// Whether a doubted UAV is again where it is to be.
   bool isBack(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters) const;
+  /// Whether a UAV that has not been measured for a while is elsewhere than tracking explains.
+  bool isFarOff(const UavMeasurement& measurement, const MotionMemory& motions, const Parameters& parameters) const;
+  /// How far it is off the nearest of the motions that it may be flying, but for what it was off before [m]; empty if
+  /// none is known.
+  std::optional<double> newDeviation(const UavMeasurement& measurement, const MotionMemory& motions) const;
   /// Whether it has stood for odometry_doubt_time where its motion has led since it was believed last.
   bool hasStoodOnWay(const UavMeasurement& measurement, const MotionMemory& motions, const InputParameters& input);
   void trust(const UavMeasurement& measurement, const MotionMemory& motions);
@@ -75,6 +85,7 @@ class OdometryMonitor {
   std::optional<UavMeasurement> doubted_;  ///< the newest of those that fit each other but not the trusted one
   double doubted_since_ = 0.0;             ///< stamp of the first of them [s]
   bool source_changed_ = false;            ///< between two doubted ones, once
+  bool after_gap_ = false;                 ///< they began after a gap, and go on from there
   std::optional<UavMeasurement> stood_;    ///< the first of those since then that stand in one place on its way
   Reason fault_ = Reason::kNone;           ///< why they are doubted
   std::optional<double> off_plan_since_;   ///< [s]

@@ -28,7 +28,8 @@ class ObservedFlight {
   /// acceleration), within what a UAV is able to do. Not if nothing was measured.
   KinematicState state(const LimitParameters& limits) const;
   Vector3 jerk(const LimitParameters& limits) const;
-  double stamp() const { return samples_[count_ - 1].stamp; }
+  const UavMeasurement& newest() const { return samples_[count_ - 1]; }
+  double stamp() const { return newest().stamp; }
 
  private:
   std::array<UavMeasurement, 3> samples_;  ///< the oldest first
@@ -67,7 +68,7 @@ void begin(const UavMeasurement& measurement, double epoch, const Parameters& pa
 void assumeBraking(const ObservedFlight& flight, double epoch, const Parameters& parameters, MotionMemory& motions);
 
 /// When a planner that finds UAVs in flight begins. What they fly has been checked to its end, where they rest: it is
-/// safe to wait, and it is not to plan before the obstacles are known.
+/// safe to wait as long as all fly it, and it is not to plan before the obstacles are known.
 class Takeover {
  public:
   /// Slower counts as hovering [m/s]: noise, a gust.
@@ -76,9 +77,13 @@ class Takeover {
   static constexpr double kAtHome = 1.0;
   /// Longest wait, from the first cycle on [s].
   static constexpr double kPatience = 2.0;
+  /// A UAV that flies into one that hovers within this time is not waited for [s]: so long a stop and the cycle before
+  /// it take.
+  static constexpr double kUrgent = 1.5;
 
   /// `homes`: where the scenario has each UAV start [m].
-  explicit Takeover(const std::vector<Vector3>& homes) : homes_(homes), flights_(homes.size()) {}
+  Takeover(const std::vector<Vector3>& homes, const LimitParameters& limits)
+      : limits_(limits), homes_(homes), flights_(homes.size()) {}
 
   /// Forgets everything. `obstacles`: so many tracks were in use before; empty: not known.
   /// `epoch`: of the last plans before [s]; only later measurements tell whether a vehicle flies them.
@@ -91,11 +96,16 @@ class Takeover {
   /// Some UAV is in flight of which no motion is known: it moves, or is not where it would start.
   bool findsFlight() const { return finds_flight_; }
   /// With a known number of obstacles as soon as there are as many `tracks`; else, and at the latest, after kPatience,
-  /// in which UAVs are observed.
+  /// in which UAVs are observed. Without a record at once if one of them flies into one that hovers, which may have
+  /// stopped on its own.
   bool isReady(std::size_t tracks) const;
   const ObservedFlight& flight(std::size_t uav) const { return flights_[uav]; }
 
  private:
+  /// Whether a UAV at its velocity comes closer than pairs may to one that hovers within kUrgent.
+  bool foreseesEncounter() const;
+
+  const LimitParameters limits_;
   const std::vector<Vector3> homes_;
   std::vector<ObservedFlight> flights_;
   std::optional<std::size_t> obstacles_;

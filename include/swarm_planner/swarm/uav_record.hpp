@@ -70,7 +70,7 @@ struct UavRecord {
   bool isOnMotion(const UavMeasurement& measurement, const Parameters& parameters) const;
   void forgetMotions();
   /// Its odometry cannot be planned from in this cycle.
-  void loseSight(const Parameters& parameters);
+  void loseSight(const Parameters& parameters, const FlightBounds& bounds);
   /// In what way it is not where it was to be, for the operator; kNone where it is.
   Reason reasonOff(const Parameters& parameters) const;
   /// How far it may be from its motion while it is not seen.
