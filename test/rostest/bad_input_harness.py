@@ -8,6 +8,7 @@ import xmlrpc.client
 
 import rosgraph
 import rospy
+from catkin.find_in_workspaces import find_in_workspaces
 from rosgraph_msgs.msg import Log
 from swarm_harness import Recorder, wait_for
 
@@ -74,5 +75,9 @@ def processor_time_of(pid):
 
 def flood(seconds, rate, topics):
     """Publishes bad messages on each topic; returns the rate that was reached [Hz]."""
-    command = ['rosrun', 'swarm_planner', 'flood', str(seconds), str(rate)] + list(topics)
+    # rosrun would look through the source tree too, which may hold programs of other builds.
+    folders = find_in_workspaces(['libexec'], 'swarm_planner')
+    program = next(os.path.join(folder, 'flood') for folder in folders
+                   if os.path.exists(os.path.join(folder, 'flood')))
+    command = [program, str(seconds), str(rate)] + list(topics)
     return float(subprocess.run(command, stdout=subprocess.PIPE, check=True, timeout=120).stdout)
