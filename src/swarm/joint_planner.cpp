@@ -124,13 +124,13 @@ void JointPlanner::storeGuess(double epoch, JointGuess& guess) const {
   guess.rows.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(std::min(rows.size(), kGuessRoom)));
 }
 
-void JointPlanner::solve(const PlanningTime& time, const std::vector<UavRecord>& records) {
+void JointPlanner::solve(const PlanningTime& time, std::vector<UavRecord>& records) {
   const std::vector<SqpResult>& results = sqp_.solve(problem_, plans_, [&time] { return time.isSpent(); });
   results_.assign(results.begin(), results.end());
   if (!time.isSpent()) solveAlongGuides(time, records);
 }
 
-void JointPlanner::solveAlongGuides(const PlanningTime& time, const std::vector<UavRecord>& records) {
+void JointPlanner::solveAlongGuides(const PlanningTime& time, std::vector<UavRecord>& records) {
   bool any = false;
   for (std::size_t m = 0; m < members_.size(); ++m) {
     if (!records[members_[m]].guide.needsFreshStart()) continue;
@@ -140,7 +140,7 @@ void JointPlanner::solveAlongGuides(const PlanningTime& time, const std::vector<
       along_.active_pairs.rows.clear();
       any = true;
     }
-    const SqpResult alone = planners_[m].leadAlongGuide(along_.plans[m]);
+    const SqpResult alone = planners_[m].leadAlongGuide(records[members_[m]], along_.plans[m]);
     along_.active[m].count = 0;
     results_[m].iterations += alone.iterations;
     results_[m].qp_iterations += alone.qp_iterations;

@@ -84,8 +84,8 @@ void UavPlanner::pose(std::size_t uav, double epoch, UavRecord& record, const Su
   start_plan = plan_;
 }
 
-SqpResult UavPlanner::leadAlongGuide(Trajectory& start_plan) {
-  const SqpResult alone = solveGuideAlone();
+SqpResult UavPlanner::leadAlongGuide(UavRecord& record, Trajectory& start_plan) {
+  const SqpResult alone = solveGuideAlone(record);
   start_plan = along_;
   return alone;
 }
@@ -245,7 +245,7 @@ void UavPlanner::keepJerkLimit(const KinematicState& start) {
   rollOut(start, plan_);
 }
 
-SqpResult UavPlanner::solveGuideAlone() {
+SqpResult UavPlanner::solveGuideAlone(UavRecord& record) {
   along_ = shifted_;
   along_active_.count = 0;
   mapped_.findCorridorAlongPath(check_.map, problem_);
@@ -253,11 +253,13 @@ SqpResult UavPlanner::solveGuideAlone() {
   const SqpResult alone = sqp_.solve(problem_, along_, along_active_, kMostLeadingQps);
   std::swap(problem_.bodies, no_bodies_);
   along_active_.count = 0;
+  // It need not go where the corridor about the path is wide, and what lies outside of that is not known there.
+  mapped_.findCorridor(check_.map, along_, record.corridor, problem_);
   return alone;
 }
 
 void UavPlanner::solveAlongGuide(UavRecord& record, SqpResult& result) {
-  const SqpResult alone = solveGuideAlone();
+  const SqpResult alone = solveGuideAlone(record);
   SqpResult other = sqp_.solve(problem_, along_, along_active_);
   const int iterations = result.iterations + alone.iterations + other.iterations;
   const int qp_iterations = result.qp_iterations + alone.qp_iterations + other.qp_iterations;

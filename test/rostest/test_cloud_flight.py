@@ -17,7 +17,7 @@ from swarm_harness import Planner, Recorder, wait_for
 
 # The wall's face, across the UAV's way, as wide and high as a sensor may see it [m].
 WALL_X, HALF_WIDTH, HEIGHT = 8.0, 2.0, 4.0
-SPACING = 0.15  # of the points on it [m]
+SPACING = 0.15  # of the points on it, which reach up to its edges, at most [m]
 RADIUS = 0.3  # of the UAV [m]
 RANGE = 4.8  # of the sensor [m]
 PERIOD = 0.2  # between two clouds [s]
@@ -32,9 +32,9 @@ def rotated_back(q, v):
 
 
 def wall():
-    steps = int(2.0 * HALF_WIDTH / SPACING) + 1
-    return [(WALL_X, -HALF_WIDTH + i * SPACING, j * SPACING) for i in range(steps)
-            for j in range(int(HEIGHT / SPACING) + 1)]
+    columns, rows = math.ceil(2.0 * HALF_WIDTH / SPACING), math.ceil(HEIGHT / SPACING)
+    return [(WALL_X, HALF_WIDTH * (2.0 * i / columns - 1.0), HEIGHT * j / rows) for i in range(columns + 1)
+            for j in range(rows + 1)]
 
 
 def seen_from(odometry):
@@ -73,7 +73,11 @@ class CloudFlightTest(unittest.TestCase):
             rospy.sleep(PERIOD)
             return newest and newest.pose.pose.position.x > BEYOND
 
-        wait_for(fly_on, 'the UAV beyond the wall')
+        try:
+            wait_for(fly_on, 'the UAV beyond the wall')
+        except AssertionError as waited:
+            place = odometry.last().pose.pose.position
+            self.fail('%s: at (%.2f, %.2f, %.2f) "%s"' % (waited, place.x, place.y, place.z, planner.uav('uav1').reason))
         least = min(clearance(each) for each in odometry.all())
         rospy.loginfo('%d clouds, least clearance %.2f m', published, least)
         if not clouds:

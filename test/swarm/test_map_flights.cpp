@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "mapped_places.hpp"
+#include "support/random.hpp"
+#include "swarm_planner/map/cloud_map.hpp"
 
 namespace swarm_planner {
 namespace {
@@ -51,6 +53,39 @@ TEST(MapFlights, StopBeforeAWallThatAppearsAndGoRoundIt) {
   flight.setMap(hallWithDoor(0.9));
   EXPECT_EQ(flight.fly(80), 1U);
   EXPECT_GE(flight.leastVoxelDistance(), 0.2);
+}
+
+// The way round the part that is seen first is none: the wall goes on. Nobody is to stand before it for that.
+TEST(MapFlights, GoRoundAWallThatTheySeePieceByPiece) {
+  constexpr double kRadius = 0.3, kHalfWidth = 2.0, kSpacing = 0.15, kRange = 4.8;
+  constexpr std::size_t kRow = 27;
+  Random random(7);
+  int standing = 0;
+  for (int flown = 0; flown < 20; ++flown) {
+    Mission mission = makeTestMission({Vector3(random.uniform(-9.0, -8.0), 0.0, 1.5)}, {Vector3(22, 0, 1.5)}, 1.5);
+    Faults faults;
+    mission.parameters = resolveParameters({}, {{"max_speed", 2.0}, {"uav_radius", kRadius}}, "test", faults);
+    faults.throwIfAny();
+    MappedFlight flight(mission, PlaceBuilder(0.1).build());
+    CloudMap seen(0.1);
+    std::shared_ptr<const VoxelMap> map;
+    for (int cycle = 0; cycle < 50; ++cycle) {
+      const KinematicState x = flight.flight().vehicle(0);
+      std::vector<Vector3> points;
+      for (std::size_t i = 0; i < kRow * kRow; ++i) {
+        const Vector3 point(0.0, kSpacing * static_cast<double>(i % kRow) - kHalfWidth,
+                            kSpacing * static_cast<double>(i / kRow));
+        if ((point - x.p).norm() < kRange) points.push_back(point);
+      }
+      std::string why;
+      if (seen.insert(points, x.p, kRange) > 0) flight.setMap(map = seen.voxels(false, map.get(), why));
+      flight.cycle();
+      if (std::abs(x.p.x()) < 5.0 && x.v.norm() < 0.1) ++standing;
+    }
+    EXPECT_GT(flight.flight().vehicle(0).p.x(), 3.0) << "flight " << flown;
+    EXPECT_GE(flight.leastVoxelDistance(), kRadius);
+  }
+  EXPECT_LE(standing, 20) << "cycles of all flights";
 }
 
 // Nobody stops from 1.2 m/s within 0.5 m: it is to come there as slow as it can, not to fly on through the wall.

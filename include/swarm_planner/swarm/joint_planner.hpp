@@ -44,9 +44,9 @@ class JointPlanner {
   void posePairs(const Surroundings& surroundings);
   void takeGuess(double epoch, const JointGuess& guess);
   void storeGuess(double epoch, JointGuess& guess) const;
-  void solve(const PlanningTime& time, const std::vector<UavRecord>& records);
+  void solve(const PlanningTime& time, std::vector<UavRecord>& records);
   /// Solves once more, from where the guides of those that need it alone would lead: the better solution stays.
-  void solveAlongGuides(const PlanningTime& time, const std::vector<UavRecord>& records);
+  void solveAlongGuides(const PlanningTime& time, std::vector<UavRecord>& records);
   /// Whether all drafts pass among each other; leaves the surroundings as they were.
   bool agree(double epoch, std::vector<UavRecord>& records, Surroundings& surroundings);
 

@@ -49,7 +49,7 @@ class UavPlanner {
             const std::vector<bool>& solved_together, Trajectory& start_plan);
   const UavProblem& problem() const { return problem_; }
   /// Another plan to start from: where the guide alone would lead.
-  SqpResult leadAlongGuide(Trajectory& start_plan);
+  SqpResult leadAlongGuide(UavRecord& record, Trajectory& start_plan);
   /// The motion of the solver's plan with the stop that suits what there was to keep clear of at begin().
   const CommittedMotion& draft(std::size_t uav, const Trajectory& plan, const UavRecord& record,
                                const Surroundings& surroundings);
@@ -90,8 +90,9 @@ class UavPlanner {
   /// Leaves the motion of the longest step towards the plan in work that passes the check.
   CheckVerdict decide(std::size_t uav, UavRecord& record, const Surroundings& surroundings, const SqpResult& result,
                       UavReport& report);
-  /// To `along_`, without anything to keep clear of.
-  SqpResult solveGuideAlone();
+  /// To `along_`, without anything to keep clear of but the map, in a corridor that is about the path at first. Leaves
+  /// the one about the answer.
+  SqpResult solveGuideAlone(UavRecord& record);
   /// Solves once more, from where the guide alone would lead: the better of the two solutions stays.
   void solveAlongGuide(UavRecord& record, SqpResult& result);
   /// The QP has no rows for the jerk: a plan that asks for too much of it is shortened towards the motion flown.
