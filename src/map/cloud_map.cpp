@@ -3,6 +3,7 @@
 
 #include <octomap/OcTree.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -66,23 +67,40 @@ CloudMap& CloudMap::operator=(CloudMap&&) noexcept = default;
 
 double CloudMap::resolution() const { return tree_->octree.getResolution(); }
 
-std::size_t CloudMap::insert(const std::vector<Vector3>& points, const Vector3& origin, double max_range) {
-  // OctoMap computes in single precision: rays are cut before it sees them. It moves points into the middle of voxels,
-  // and cuts rays then: to be cut there, they have to be some voxels longer.
-  const double longest = max_range + 3.0 * resolution();
-  const double reach = kHalfWidth * resolution() - longest;
-  if (!(origin.array().abs() < reach).all()) return 0;
+bool CloudMap::reaches(const Vector3& origin, double max_range) const {
+  return (origin.array().abs() < kHalfWidth * resolution() - longestRay(max_range)).all();
+}
+
+double CloudMap::longestRay(double max_range) const { return max_range + 3.0 * resolution(); }
+
+std::size_t CloudMap::insert(const std::vector<Vector3>& points, const Vector3& origin, double max_range,
+                             const BodyPlaces& bodies) {
+  if (!reaches(origin, max_range)) return 0;
+  const double longest = longestRay(max_range);
+  const auto isOfBody = [&bodies](const Vector3& point, double around) {
+    return std::any_of(bodies.centers.begin(), bodies.centers.end(), [&](const Vector3& center) {
+      return ((point - center).cwiseAbs().array() - around).cwiseMax(0.0).matrix().squaredNorm() <
+             bodies.radius * bodies.radius;
+    });
+  };
   octomap::Pointcloud cloud;
   cloud.reserve(points.size());
   for (const Vector3& point : points) {
-    if (!point.allFinite()) continue;
+    if (!point.allFinite() || isOfBody(point, 0.0)) continue;
     const Vector3 ray = point - origin;
     const double length = ray.stableNorm();
     const bool far = length > max_range;
     cloud.push_back(toPoint(far ? Vector3(origin + longest / length * ray) : point));
   }
-  constexpr bool kLazy = false, kOncePerVoxel = true;
-  tree_->octree.insertPointCloud(cloud, toPoint(origin), max_range, kLazy, kOncePerVoxel);
+  octomap::OcTree& octree = tree_->octree;
+  octomap::KeySet free, occupied;
+  octree.computeDiscreteUpdate(cloud, toPoint(origin), free, occupied, max_range);
+  const double half = 0.5 * resolution();
+  for (const octomap::OcTreeKey& key : free) {
+    const octomap::point3d middle = octree.keyToCoord(key);
+    if (!isOfBody({middle.x(), middle.y(), middle.z()}, half)) octree.updateNode(key, false);
+  }
+  for (const octomap::OcTreeKey& key : occupied) octree.updateNode(key, true);
   return cloud.size();
 }
 

@@ -74,13 +74,4 @@ std::optional<std::vector<Vector3>> pointsOf(const sensor_msgs::PointCloud2& clo
   return points;
 }
 
-void removeBodies(const std::vector<Vector3>& bodies, double radius, std::vector<Vector3>& points) {
-  const auto isLeftOut = [&](const Vector3& point) {
-    return !point.allFinite() || std::any_of(bodies.begin(), bodies.end(), [&](const Vector3& body) {
-      return (point - body).squaredNorm() < radius * radius;
-    });
-  };
-  points.erase(std::remove_if(points.begin(), points.end(), isLeftOut), points.end());
-}
-
 }  // namespace swarm_planner

@@ -114,10 +114,12 @@ void MapInput::receiveCloud(const sensor_msgs::PointCloud2& message) {
   if (!points) return reject(kMapCloudTopic, fault, why);
   for (Vector3& point : *points) point = *pose * point;
   const ros::Time stamp = message.header.stamp.isZero() ? ros::Time::now() : message.header.stamp;
-  removeBodies(bodies_(toSeconds(stamp)), options_.body_radius, *points);
-  if (points->empty()) return reject(kMapCloudTopic, InputFault::kNotFinite, "a cloud without any point to use");
-  if (cloudMap().insert(*points, pose->translation(), options_.cloud_range) == 0) {
+  const BodyPlaces bodies{bodies_(toSeconds(stamp)), options_.body_radius};
+  if (!cloudMap().reaches(pose->translation(), options_.cloud_range)) {
     return reject(kMapCloudTopic, InputFault::kAbsurd, "a sensor that is too far from the frame's origin");
+  }
+  if (cloudMap().insert(*points, pose->translation(), options_.cloud_range, bodies) == 0) {
+    return reject(kMapCloudTopic, InputFault::kNotFinite, "a cloud without any point to use");
   }
   if (!cloud_since_) cloud_since_ = received;
 }

@@ -55,6 +55,43 @@ TEST(CloudMap, PointsBeyondTheRangeMakeNoWall) {
   EXPECT_EQ(map->occupiedCount(), 0U);
 }
 
+TEST(CloudMap, UavsAreNoWalls) {
+  const std::vector<Vector3> points = {{2.05, 0.45, 1.05}, {2.05, -0.55, 1.05}, {4.05, 0.05, 1.05}};
+  for (const double radius : {0.0, 0.5}) {
+    CloudMap cloud(0.1);
+    const BodyPlaces bodies{{Vector3(0, 0, 1), Vector3(2.05, 0.05, 1.05)}, radius};
+    EXPECT_EQ(cloud.insert(points, Vector3(0.05, 0.05, 1.05), kRange, bodies), radius > 0.0 ? 2U : 3U);
+    std::string why;
+    const auto map = cloud.voxels(false, nullptr, why);
+    EXPECT_EQ(map->isOccupied(points[0]), radius == 0.0);
+    EXPECT_TRUE(map->isOccupied(points[1]));
+    EXPECT_TRUE(map->isOccupied(points[2]));
+  }
+}
+
+// Its own points are left out as those of the UAV that flies along it: rays to others are not to clear it.
+TEST(CloudMap, AWallBesideTheSensorStays) {
+  for (const double radius : {0.5, 0.0}) {
+    CloudMap cloud(0.1);
+    cloud.insert(wallAt(2.05), Vector3(0.05, 0.05, 1.05), kRange);
+    for (double y = -0.9; y < 0.9; y += 0.01) {
+      const Vector3 sensor(1.7, y, 1.05);
+      std::vector<Vector3> points;
+      for (const Vector3& point : wallAt(2.05)) {
+        if ((point - sensor).norm() >= 0.5) points.push_back(point);
+      }
+      cloud.insert(points, sensor, kRange, {{sensor}, radius});
+    }
+    std::string why;
+    const std::size_t left = cloud.voxels(false, nullptr, why)->occupiedCount();
+    if (radius > 0.0) {
+      EXPECT_EQ(left, wallAt(2.05).size());
+    } else {
+      EXPECT_LT(left, wallAt(2.05).size());
+    }
+  }
+}
+
 TEST(CloudMap, BadPointsAreLeftOut) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -63,6 +100,7 @@ TEST(CloudMap, BadPointsAreLeftOut) {
   EXPECT_EQ(cloud.insert(points, Vector3(0.05, 0.05, 1.05), kRange), 2U);
   EXPECT_EQ(cloud.insert(points, Vector3(kNan, 0, 0), kRange), 0U);
   EXPECT_EQ(cloud.insert(points, Vector3(1e9, 0, 0), kRange), 0U);
+  EXPECT_FALSE(cloud.reaches(Vector3(1e9, 0, 0), kRange));
   std::string why;
   const auto map = cloud.voxels(false, nullptr, why);
   ASSERT_NE(map, nullptr) << why;

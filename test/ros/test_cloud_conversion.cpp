@@ -105,12 +105,5 @@ TEST(CloudConversion, NoNumbersInAMessageEndTheProgram) {
   }
 }
 
-TEST(CloudConversion, BodiesAndBadPointsAreLeftOut) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<Vector3> points = {{0, 0, 0}, {0.4, 0, 0}, {0.6, 0, 0}, {kNan, 0, 0}, {5, 5, 5.3}};
-  removeBodies({{0, 0, 0}, {5, 5, 5}}, 0.5, points);
-  EXPECT_EQ(points, std::vector<Vector3>({{0.6, 0, 0}}));
-}
-
 }  // namespace
 }  // namespace swarm_planner

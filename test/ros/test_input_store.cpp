@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "swarm_planner/ros/cloud_conversion.hpp"
 #include "swarm_planner/ros/geometry_conversion.hpp"
 #include "swarm_planner/ros/input_store.hpp"
 
@@ -78,18 +77,6 @@ TEST_F(InputStoreTest, KnowsWhereUavsWere) {
   EXPECT_NEAR(store_.placesAt(5.0)[0].x(), 0.0, 1e-6) << "what was first";
   store_.clear();
   EXPECT_TRUE(store_.placesAt(11.0).empty());
-}
-
-TEST_F(InputStoreTest, CutsBodiesOutWhereTheyWereWhenACloudWasTaken) {
-  for (int i = 0; i <= 50; ++i) store_.accept(0, sampleAt(10.0 + 0.02 * i, 3.0 * 0.02 * i));
-  const double taken = 10.5;
-  const std::vector<Vector3> seen = {{1.4, 0, 0}, {1.6, 0.1, 0}, {2.9, 0, 0}};
-  std::vector<Vector3> points = seen;
-  removeBodies(store_.placesAt(taken), 0.5, points);
-  EXPECT_EQ(points, std::vector<Vector3>({{2.9, 0, 0}}));
-  points = seen;
-  removeBodies({store_.uavs()[0].sample.p}, 0.5, points);
-  EXPECT_EQ(points, std::vector<Vector3>({{1.4, 0, 0}, {1.6, 0.1, 0}})) << "control: where they are now";
 }
 
 TEST_F(InputStoreTest, ManyMeasurementsDoNotCrowdOutThePast) {

@@ -17,8 +17,4 @@ namespace swarm_planner {
 std::optional<std::vector<Vector3>> pointsOf(const sensor_msgs::PointCloud2& cloud, InputFault& fault,
                                              std::string& why);
 
-/// Leaves out the points that are not finite, and those within `radius` [m] of a body: UAVs see each other, and
-/// themselves.
-void removeBodies(const std::vector<Vector3>& bodies, double radius, std::vector<Vector3>& points);
-
 }  // namespace swarm_planner
