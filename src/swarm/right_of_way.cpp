@@ -88,7 +88,13 @@ bool RightOfWay::watch(std::size_t i, const Reason& judged) {
     return false;
   }
   traffic.takes_part = true;
-  if (traffic.gives_way && isOver(uav)) traffic.leaveAside();
+  if (traffic.gives_way && isInVain(uav)) {
+    // Whoever was to pass does not come past, and would ask for the same again: it is for another one to be first.
+    (*uavs_)[traffic.senior].traffic.since = epoch_;
+    traffic.leaveAside();
+  } else if (traffic.gives_way && isOver(uav)) {
+    traffic.leaveAside();
+  }
   traffic.courtesy = traffic.gives_way ? Courtesy::kGivesWay : Courtesy::kNone;
   traffic.partner = traffic.beneficiary;
   const FollowedTarget followed = followedTarget(uav);
@@ -115,9 +121,14 @@ bool RightOfWay::isOver(const UavRecord& uav) const {
   if (!its.takes_part || its.since > traffic.asked_at) return true;
   if (traffic.is_chained != its.gives_way) return true;
   const double progress = its.gives_way ? its.aside_progress : other.progress;
-  if (progress >= traffic.passed_at) return true;
+  return progress >= traffic.passed_at;
+}
+
+bool RightOfWay::isInVain(const UavRecord& uav) const {
+  const TrafficState& traffic = uav.traffic;
   const double longest = kLongest * patience_;
-  return epoch_ - traffic.asked_at > longest && epoch_ - its.anchored_since > longest;
+  const double stands_since = (*uavs_)[traffic.beneficiary].traffic.anchored_since;
+  return epoch_ - traffic.asked_at > longest && epoch_ - stands_since > longest;
 }
 
 RightOfWay::Rank RightOfWay::rankOf(std::size_t i) const {

@@ -42,6 +42,8 @@ class RightOfWay {
   /// Brings the UAV's state up to date. True if it is held up.
   bool watch(std::size_t i, const Reason& judged);
   bool isOver(const UavRecord& uav) const;
+  /// Whether it has given way for long, and the other one still stands where it stood.
+  bool isInVain(const UavRecord& uav) const;
   void resolve(std::size_t i, const NeighbourLists& neighbours);
   void findBlockers(std::size_t i, const Way& way, const NeighbourLists& neighbours);
   /// Asks UAV `j` to leave the way of UAV i. False if it has no place to go.
